@@ -1,5 +1,5 @@
-// Faces of a ball hull, from exact signs only (ball_side.h): orders a ring, checks neighbours, and lists all
-// faces by their definition (every three points whose ball contains all others).
+// Faces of a ball hull, from exact signs only (ball_side.h): orders a ring, and lists all faces by their
+// definition (every three points whose ball contains all others).
 #include "fcl_stpbv/volume/ball_faces.h"
 
 #include <Eigen/Geometry>
@@ -62,7 +62,7 @@ Ring ringOf(const std::vector<Vector3d>& points, const TouchingBall& ball, int f
 
 namespace {
 
-// The cloud's points but those within the touch tolerance of an earlier one.
+// Indices of the cloud's points, without those within the touch tolerance of an earlier point.
 std::vector<int> distinct(const std::vector<Vector3d>& points) {
   const double same = touchTolerance(points);
   std::vector<int> kept;
@@ -95,10 +95,10 @@ std::vector<Ring> facesByDefinition(const std::vector<Vector3d>& points, double 
   for (const int a : all)
     for (const int b : all)
       for (const int c : all) {
-        if (b <= a || c <= a || b == c) continue;  // a is the ring's first
+        if (b <= a || c <= a || b == c) continue;  // the ring starts with a, its smallest index
         const TouchingBall ball(at(a), at(b), at(c), radius);
         if (!ball.valid() || !holdsAll(ball)) continue;
-        touched.push_back(c);  // its own sides are zero, if not to rounding
+        touched.push_back(c);  // c touches its own ball, even where rounding hides that
         std::sort(touched.begin(), touched.end());
         touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
         const bool isSide = std::none_of(touched.begin(), touched.end(), [&](int i) {

@@ -21,7 +21,7 @@ using Eigen::Vector3d;
 // `same` (m). Sets `mayJoin` if neighbours may lie on one ball up to rounding.
 bool isSound(Quickhull<QuickBall>& hull, double same, bool& mayJoin) {
   const double joined =
-      same + 1e-9 * same;  // heights of joined faces, which are computed with other roundings
+      same + 1e-9 * same;  // for heights of joined faces, which join_faces.h computes with other roundings
   for (auto& f : hull.faces()) {
     if (f.isGone) continue;
     for (std::size_t k = 0; k < 3; ++k) {

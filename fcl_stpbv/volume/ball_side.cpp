@@ -1,8 +1,8 @@
 // Decides whether a point is inside or outside of the ball through three other points. It computes the sign
 // of the point's height over the ball, |q|^2 / (2 rho) + q.m. Here q is the vector to the point from one of
 // the three, and m is the ball's normal there. The sign is computed
-// 1. in long double, if above its error bound;
-// 2. in quadruple precision, if above the error bound of that;
+// 1. in long double, if the height is above its error bound;
+// 2. in quadruple precision, if the height is above the error bound of that;
 // 3. exactly, in integers (exact_sign.h).
 #include "fcl_stpbv/volume/ball_side.h"
 
@@ -20,10 +20,10 @@ __extension__ typedef __float128 Quad;
 using Quad = long double;  // already 113 bits on the platforms without __float128
 #endif
 
-constexpr double kQuadEpsilon = 1e-33;  // 2^-112 = 1.9e-34, with room
+constexpr double kQuadEpsilon = 1e-33;  // 2^-112 = 1.9e-34, rounded up generously
 static_assert(std::numeric_limits<long double>::digits >= 64, "a long double must hold 64 bits or more");
 constexpr double kLongEpsilon =
-    std::numeric_limits<long double>::epsilon() * 8;  // a dozen roundings a formula
+    std::numeric_limits<long double>::epsilon() * 8;  // for about a dozen roundings in a formula
 
 template <class T>
 struct Vec {
@@ -56,10 +56,10 @@ Quad squareRoot(Quad x) {
 }
 #endif
 
-// Outward normal at a of the ball through a, a+u, a+v; `condition` tells how much it magnifies rounding.
-// With N = u x v and O the circumcentre relative to a: m = -kappa O + sqrt(1 - kappa^2 O^2) N/|N|. Points are
-// taken for collinear if the sine of the triangle's angle is below `leastSine`, since the cross product is
-// then only rounding.
+// Outward normal at a of the ball through a, a+u, a+v. `condition` is the factor by which it magnifies
+// rounding. With N = u x v and O the circumcentre relative to a: m = -kappa O + sqrt(1 - kappa^2 O^2) N/|N|.
+// If the sine of the triangle's angle is below `leastSine`, the cross product is only rounding, and the
+// points count as collinear.
 template <class T>
 bool ballNormal(const Vec<T>& u, const Vec<T>& v, T kappa, double leastSine, Vec<T>* m, double* condition) {
   const Vec<T> n = cross(u, v);
@@ -71,7 +71,7 @@ bool ballNormal(const Vec<T>& u, const Vec<T>& v, T kappa, double leastSine, Vec
   const T scale = kappa / (2 * n2);
   const Vec<T> o{scale * towards.x, scale * towards.y, scale * towards.z};
   const T rest = 1 - dot(o, o);
-  // A circumradius equal to the radius to within rounding still touches.
+  // A ball whose radius equals the circumradius to within rounding still touches the points.
   if (static_cast<double>(rest) < -1e-17 / (sine * sine)) return false;
   const T root = rest > 0 ? squareRoot(rest) : T(0);
   *m = combine(T(-1), o, root / length, n);
@@ -81,8 +81,9 @@ bool ballNormal(const Vec<T>& u, const Vec<T>& v, T kappa, double leastSine, Vec
 
 }  // namespace
 
-// Thinner triangles than this are decided in quadruple precision; coordinates that are doubles and not in a
-// row make triangles far thicker than the last one.
+// Least sines of a triangle's angle. Triangles below kThinLong are decided in quadruple precision, and points
+// below kThinQuad count as collinear. Points that are not collinear and whose coordinates are doubles make
+// triangles with a far larger sine than kThinQuad.
 constexpr double kThinLong = 1e-6, kThinQuad = 1e-24;
 
 struct TouchingBall::Exact {

@@ -32,11 +32,11 @@ class TouchingBall {
   /// Height of p over the surface (m), in long double.
   long double height(const Eigen::Vector3d& p) const;
 
-  /// 1 where p lies outside the ball, 0 on its surface, -1 inside.
+  /// 1 if p lies outside the ball, 0 if it lies on the surface, -1 if it lies inside.
   int side(const Eigen::Vector3d& p) const;
 
-  /// 1 where the touched points p, q, s turn counter-clockwise on the ball seen from outside, 0 where they
-  /// lie on one great circle, -1 otherwise.
+  /// 1 if the touched points p, q, s turn counter-clockwise on the ball seen from outside, 0 if they lie on
+  /// one great circle, -1 otherwise.
   int turn(const Eigen::Vector3d& p, const Eigen::Vector3d& q, const Eigen::Vector3d& s) const;
 
  private:
@@ -50,7 +50,7 @@ class TouchingBall {
   long double m_[3] = {0, 0, 0};
   Eigen::Vector3d normal_{0, 0, 0};
   double normalError_ = 0;
-  double condition_ = 1;  // how much the three points' shape magnifies rounding in m
+  double condition_ = 1;  // factor by which the shape of the three points' triangle magnifies rounding in m
   mutable std::shared_ptr<const Exact> exact_;
 };
 

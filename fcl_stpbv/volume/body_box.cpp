@@ -11,11 +11,11 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 BodyBox boxAround(const std::vector<Vector3d>& vertices, const std::vector<std::array<int, 2>>& edges) {
-  constexpr double kThin = 1e-3;       // of the longest side: the normal of a thinner one is less certain
-  constexpr double kRounding = 4e-15;  // of the size: a corner's, turned into the box's axes
-  constexpr double kTelling = 1.5;     // longest to shortest side
-  constexpr double kLine = 1e-9;       // of the longest edge: less across it may be rounding
-  // Of the edges' parts across `u` the longest; a zero vector where there is none.
+  constexpr double kThin = 1e-3;       // share of the longest side: a thinner box has a less certain normal
+  constexpr double kRounding = 4e-15;  // share of the size: the rounding of a corner in the box's axes
+  constexpr double kTelling = 1.5;     // ratio of the longest to the shortest side
+  constexpr double kLine = 1e-9;       // share of the longest edge: a smaller part across it may be rounding
+  // The longest of the edges' parts perpendicular to `u`; a zero vector if there is none.
   const auto longestAcross = [&](const Vector3d& u) {
     Vector3d longest(0, 0, 0);
     for (const auto& [from, to] : edges) {
@@ -46,7 +46,7 @@ BodyBox boxAround(const std::vector<Vector3d>& vertices, const std::vector<std::
   box.half = pack(half);
   box.isTelling = half.maxCoeff() > kTelling * half.minCoeff();
   const double rounding = kRounding * (middle.lpNorm<1>() + half.sum());
-  unsigned corners = 0;  // a bit each
+  unsigned corners = 0;  // one bit for each corner
   for (const Vector3d& p : vertices) {
     const Vector3d q = axes.transpose() * p - middle;
     if (((q.cwiseAbs() - half).cwiseAbs().array() <= rounding).all())

@@ -21,7 +21,7 @@ double surfaceDifference(const StpBv& a, const StpBv& b) {
     for (int face = 0; face < volume->faceCount(); ++face)
       for (const int vertex : volume->faces()[static_cast<std::size_t>(face)])
         compare(volume->corner(face, vertex));
-  constexpr int kMore = 1000;  // on a spiral, for bodies of few faces
+  constexpr int kMore = 1000;  // directions on a spiral, for bodies with few faces
   constexpr double kGoldenAngle = 2.399963229728653;
   for (int i = 0; i < kMore; ++i) {
     const double z = 1 - (2 * i + 1) / static_cast<double>(kMore), across = std::sqrt(1 - z * z);

@@ -10,8 +10,8 @@ ContactAcceleration contactAcceleration(const Radii& body1, const Radii& body2, 
   const double least = turning > 0 ? -body2.R * turning * turning : 0;
   const double sum = distance + body1.r + body2.r, rest = distance + body1.r;
   if (!(sum > 0)) return {least, speed > 0 ? detail::kInfinity : 0};
-  // The largest (speed + r y)^2 / sum - r y^2 of all y up to `turning`, without that difference: of a large r
-  // it leaves rounding only.
+  // The largest value of (speed + r y)^2 / sum - r y^2 over all y up to `turning`. The formulas below avoid
+  // this difference, because with a large r it would consist of rounding only.
   if (speed < turning * rest) return {least, speed * speed / rest};
   return {least, (speed * speed + body2.r * turning * (2 * speed - turning * rest)) / sum};
 }

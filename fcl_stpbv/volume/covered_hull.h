@@ -1,4 +1,4 @@
-// How far volumes exceed one convex hull, which is made once.
+// How far volumes exceed one convex hull. The hull is made once, for any number of volumes.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,7 +10,7 @@
 
 namespace fcl_stpbv::detail {
 
-/// The convex hull of a cloud, to measure volumes around it against (docs/theory.md, 4).
+/// The convex hull of a cloud, with which the volumes around it are compared (docs/theory.md, 4).
 class CoveredHull {
  public:
   explicit CoveredHull(const std::vector<Eigen::Vector3d>& points);
@@ -19,13 +19,14 @@ class CoveredHull {
   /// functions, found at a face normal of the hull or along the normals of one of its edges.
   double max(const StpBv& volume) const;
 
-  /// Mean height of the surface over the hull's faces, by area; over a segment along it (m).
+  /// Mean height of the surface over the hull's faces, weighted by area (m). If the hull is a segment: the
+  /// mean along it.
   double mean(const StpBv& volume) const;
 
-  /// Both.
+  /// The results of max() and mean().
   OverCover of(const StpBv& volume) const { return {max(volume), mean(volume)}; }
 
-  /// The hull's vertices, among the points.
+  /// The hull's vertices, as indices into the cloud.
   const std::vector<int>& corners() const { return corners_; }
 
  private:

@@ -36,17 +36,17 @@ class DirectionTable {
 
   int side() const { return side_; }
   bool empty() const { return entries_.empty(); }
-  /// Memory it holds, in bytes.
+  /// Memory that the table uses, in bytes.
   std::size_t memory() const { return entries_.capacity() * sizeof(std::int32_t); }
 
  private:
   std::size_t cell(const Eigen::Vector3d& n) const {
     const double half = 0.5 * side_, scale = half / n.lpNorm<1>();
     const double x = n.x() * scale, y = n.y() * scale;
-    const double folded = n.z() < 0.0 ? 1.0 : 0.0;  // as a factor: the branch would be mispredicted
+    const double folded = n.z() < 0.0 ? 1.0 : 0.0;  // a factor, because a branch would be mispredicted
     const double u = x + folded * (std::copysign(half - std::abs(y), x) - x);
     const double v = y + folded * (std::copysign(half - std::abs(x), y) - y);
-    // In this order NaN, from a zero `n`, becomes 0.
+    // With the arguments of std::max in this order, NaN (from a zero `n`) becomes 0.
     const auto slot = [&](double along) {
       return static_cast<int>(std::min(std::max(0.0, along + half), side_ - 1.0));
     };

@@ -1,11 +1,13 @@
 // Exact signs, in these steps:
 //  1. Doubles are integers times powers of two. All coordinates and the radius are scaled to integers.
-//  2. Multiplied by 2 |N|^2 rho (u = b - a, v = c - a, N = u x v), the ball's outward normal at a is
-//     sqrt(D) N - T with the integers T = |u|^2 v x N + |v|^2 N x u and D = 4 |N|^2 rho^2 - |u|^2 |v|^2 |u -
-//     v|^2 (docs/theory.md, 2). So both predicates have the form A + B sqrt(D).
-//  3. Where A and B differ in sign, A^2 against B^2 D decides.
-// The most frequent case is corners of flat faces. There B = 0, and A is small enough for integers of a
-// fixed size. If D < 0, the ball is too small, by rounding. D then counts as 0, which is the ball with the
+//  2. Let u = b - a, v = c - a, N = u x v. The ball's outward normal at a, multiplied by 2 |N|^2 rho, is
+//     sqrt(D) N - T with the integers
+//       T = |u|^2 v x N + |v|^2 N x u
+//       D = 4 |N|^2 rho^2 - |u|^2 |v|^2 |u - v|^2
+//     (docs/theory.md, 2). So both predicates have the form A + B sqrt(D).
+//  3. If A and B differ in sign, the comparison of A^2 with B^2 D decides.
+// The most frequent case is corners of flat faces. There B = 0, and A is small enough for integers of a fixed
+// size. D < 0 means that rounding has made the ball too small. D then counts as 0, which is the ball with the
 // three points on a great circle.
 #include "fcl_stpbv/volume/exact_sign.h"
 
@@ -55,9 +57,9 @@ IntegerVector<Int> cross(const IntegerVector<Int>& p, const IntegerVector<Int>& 
 struct Odd {
   std::int64_t factor;
   int exponent;
-  int bits;  // of the factor
+  int bits;  // number of bits of the factor
 
-  explicit Odd(double value) {  // not 0
+  explicit Odd(double value) {  // `value` must not be 0
     constexpr int kDigits = std::numeric_limits<double>::digits;
     factor = static_cast<std::int64_t>(std::ldexp(std::frexp(value, &exponent), kDigits));
     exponent -= kDigits, bits = kDigits;
@@ -78,7 +80,7 @@ class Scale {
   void include(const Eigen::Vector3d& p) {
     for (int k = 0; k < 3; ++k) include(p[k]);
   }
-  // Of the largest integer.
+  // Number of bits of the largest integer.
   int bits() const { return std::max(most_ - least_, 0); }
 
   template <class Int>
@@ -105,7 +107,7 @@ int signOf(const Integer& a, const Integer& b, const Integer& d) {
   return larger == 0 ? 0 : larger > 0 ? signA : signB;
 }
 
-// What all balls through three points share, as big as they may be.
+// Data that all balls through three points share, whatever their radius.
 template <class Int>
 struct Circle {
   IntegerVector<Int> a, u, v, normal;  // the normal is N
@@ -120,7 +122,7 @@ struct Circle {
   IntegerVector<Int> towards() const {  // T
     return dot(u, u) * cross(v, normal) + dot(v, v) * cross(normal, u);
   }
-  // A of a point at q from a.
+  // A for the point a + q.
   Int outside(const IntegerVector<Int>& q) const { return n2() * dot(q, q) - dot(q, towards()); }
   // D for the radius rho.
   Int discriminant(const Int& rho) const {

@@ -37,7 +37,8 @@ int touchFirst(const RollingCloud& cloud, const Vector3d& direction, Vector3d* n
   return best;
 }
 
-// Tilts the ball about `a` in some direction; returns the point that stops it, the farther one of two.
+// Tilts the ball about `a` in some direction. Returns the point that stops the ball; of two points at the
+// same angle, the farther one.
 int touchSecond(const RollingCloud& cloud, int a, const Vector3d& normal) {
   const Vector3d aside = normal.unitOrthogonal();
   int best = -1;
@@ -56,7 +57,7 @@ int touchSecond(const RollingCloud& cloud, int a, const Vector3d& normal) {
   return best;
 }
 
-// The point that the ball meets first when it rolls over a and b.
+// The point that the ball meets first when it rolls over the edge from a to b.
 int touchThird(const RollingCloud& cloud, int a, int b, const Vector3d& across) {
   int best = -1;
   double bestAngle = 0;
@@ -77,7 +78,7 @@ FirstFace firstFace(RollingCloud& cloud) {
   // start from another direction. The directions form a spiral, so that they are unlikely to coincide with an
   // axis of a hand-made cloud.
   constexpr int kTries = 64;
-  constexpr double kGolden = 2.399963229728653;  // rad, from one to the next
+  constexpr double kGolden = 2.399963229728653;  // rad, from one direction to the next
   for (int k = 0; k < kTries; ++k) {
     const double z = 0.7643977126843163 - 1.7 * k / kTries, side = std::sqrt(1 - z * z);
     const Vector3d d(side * std::cos(kGolden * k - 0.6), side * std::sin(kGolden * k - 0.6), z);
@@ -87,7 +88,7 @@ FirstFace firstFace(RollingCloud& cloud) {
     const int b = touchSecond(cloud, a, normal);
     if (b < 0) return {{}, {a}};
     cloud.removeTwins(b);
-    // Where the ball rests once it has been tilted from a onto b.
+    // The ball's normal at a after the ball has been tilted about a until it touches b.
     const Vector3d edge = cloud.at(b) - cloud.at(a), u = edge.normalized(), aside = normal.unitOrthogonal();
     const double x = edge.dot(normal), y = edge.dot(aside), s = std::hypot(x, y);
     const double angle =
@@ -98,7 +99,7 @@ FirstFace firstFace(RollingCloud& cloud) {
     if (c < 0) return {{}, {a, b}};
     try {
       return {pivot(cloud, a, b, across, c, isLone(cloud, a, b)), {}};
-    } catch (const Error&) {  // the edge from a to b is none
+    } catch (const Error&) {  // rounding: a and b are no edge of the hull
     }
   }
   throw Error(

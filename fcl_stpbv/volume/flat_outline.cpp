@@ -15,7 +15,7 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-/// Coordinates in the plane of the points; nothing where there is none.
+/// Coordinates of the points in their common plane; empty if they have no common plane or lie on one line.
 std::vector<Vector2d> inPlane(const std::vector<Vector3d>& points, double tolerance) {
   const auto farthest = [&](const auto& measure) -> const Vector3d& {
     return *std::max_element(points.begin(), points.end(),
@@ -43,7 +43,8 @@ Ring flatOutline(const std::vector<Vector3d>& points) {
   const double tolerance = touchTolerance(points);
   const std::vector<Vector2d> flat = inPlane(points, tolerance);
   if (flat.empty()) return {};
-  // Half of what may be off: what a side leaves out may be beyond the next one.
+  // Half of the tolerance: a corner that is left out within this distance of one chord may be farther outside
+  // a later one.
   const Ring ring = convexPolygon(flat, 0.5 * tolerance);
   if (ring.size() < 3) return {};
   for (std::size_t k = 0; k < ring.size(); ++k) {

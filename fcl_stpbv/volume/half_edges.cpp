@@ -18,7 +18,7 @@ using Ring = std::vector<int>;
 
 namespace {
 
-/// The half-edges by the vertex that they leave; they are numbered face by face.
+/// The half-edges, sorted by the vertex that they leave. They are numbered face by face.
 class LeavingEdges {
  public:
   LeavingEdges(std::size_t vertices, const std::vector<Ring>& faces) : begin_(vertices + 1, 0) {
@@ -35,14 +35,14 @@ class LeavingEdges {
 
   std::size_t count() const { return ways_.size(); }
 
-  /// Calls `look` with each half-edge from one vertex to the other.
+  /// Calls `look` with each half-edge from the vertex `from` to the vertex `to`.
   template <typename Look>
   void between(int from, int to, const Look& look) const {
     for (std::size_t i = begin_[at(from)]; i < begin_[at(from) + 1]; ++i)
       if (ways_[i].to == to) look(ways_[i].half);
   }
 
-  /// Whether there is one half-edge that way, and no second one.
+  /// Whether exactly one half-edge leads from `from` to `to`.
   bool isOne(int from, int to) const {
     int found = 0;
     between(from, to, [&](int) { ++found; });
@@ -53,14 +53,15 @@ class LeavingEdges {
   struct Way {
     int to, half;
   };
-  std::vector<std::size_t> begin_;  // those from vertex v: ways_[begin_[v]] to ways_[begin_[v + 1]]
+  // Vertex v's half-edges begin at ways_[begin_[v]] and end before ways_[begin_[v + 1]].
+  std::vector<std::size_t> begin_;
   std::vector<Way> ways_;
 };
 
 /// The ball on its way over one edge of a face.
 class RollingBall {
  public:
-  /// `normal`: of the face, at the edge's start.
+  /// `normal` is the face's normal at the edge's start.
   RollingBall(const std::vector<Vector3d>& points, const Ring& ring, int start, int end,
               const Vector3d& normal)
       : points_(points),
@@ -71,12 +72,12 @@ class RollingBall {
         from_(across(normal)),
         ahead_(along_.cross(from_)) {}
 
-  /// How far it rolls to a face that has this normal at the edge's start, [0, 2 pi).
+  /// Angle by which the ball rolls to a face that has this normal at the edge's start, [0, 2 pi).
   double turnTo(const Vector3d& normal) const {
     const Vector3d to = across(normal);
     const double turn = std::atan2(to.dot(ahead_), to.dot(from_));
     if (turn >= 0) return turn;
-    return turn > -kNothing && !isSpindle() ? 0 : turn + 2 * kPi;  // a turn of nothing, rounded
+    return turn > -kNothing && !isSpindle() ? 0 : turn + 2 * kPi;  // a zero turn may be rounded to below zero
   }
 
  private:
@@ -85,8 +86,8 @@ class RollingBall {
   Vector3d across(const Vector3d& v) const { return v - v.dot(along_) * along_; }
 
   /// A turn of almost 2 pi is possible only if one of the face's other vertices rises very little over the
-  /// arc on which the ball rolls, and is highest in the small angle that is missing to 2 pi, that is,
-  /// straight ahead of the normal as seen along the edge.
+  /// arc on which the ball rolls, and is highest in the small angle by which the turn falls short of 2 pi.
+  /// Seen along the edge, such a vertex lies in the direction of the face's normal.
   bool isSpindle() const {
     return std::any_of(ring_.begin(), ring_.end(), [&](int i) {
       const Vector3d q = across(points_[at(i)] - points_[at(start_)]);
@@ -98,7 +99,8 @@ class RollingBall {
   const std::vector<Vector3d>& points_;
   const Ring& ring_;
   int start_, end_;
-  Vector3d along_, from_, ahead_;  // the face's normal across the edge, and what that turns to
+  // The face's normal without its part along the edge; the direction into which this vector turns.
+  Vector3d along_, from_, ahead_;
 };
 
 }  // namespace
@@ -130,7 +132,7 @@ std::vector<HalfEdge> pairHalfEdges(const std::vector<Vector3d>& points, const s
       throw Error("the faces do not close: the edge from vertex " + std::to_string(a) + " to vertex " +
                   std::to_string(b) + " of face " + std::to_string(edge.face) +
                   " has no face on its other side");
-    // As for nearly all edges: the ball rolls back by the same angle.
+    // If one edge joins the two vertices, as nearly always, the ball rolls back by the same angle.
     if (leaving.isOne(b, a) && leaving.isOne(a, b)) {
       HalfEdge& twin = halfEdges[at(edge.twin)];
       twin.twin = static_cast<int>(h), twin.turn = edge.turn;

@@ -7,7 +7,7 @@
 
 namespace fcl_stpbv::detail {
 
-/// The half-edges of a closed surface of rings: which one lies on the other side of each.
+/// A half-edge of a closed surface of rings, with the half-edge on its other side.
 struct HalfEdge {
   int face, corner;  ///< runs from ring[corner] to the next vertex of faces[face]
   int twin = -1;     ///< index of the half-edge on the other side
@@ -17,7 +17,7 @@ struct HalfEdge {
 /// Half-edges of `faces` in order, paired with their twins. Two vertices may be joined by several edges. Then
 /// the twin of a half-edge is the one that the rolling ball reaches first. `normals[f]` is the unit outward
 /// normal at the face's first vertex.
-/// @throws Error where the faces do not form a closed surface.
+/// @throws Error if the faces do not form a closed surface.
 std::vector<HalfEdge> pairHalfEdges(const std::vector<Eigen::Vector3d>& points,
                                     const std::vector<std::vector<int>>& faces,
                                     const std::vector<Eigen::Vector3d>& normals, double radius);

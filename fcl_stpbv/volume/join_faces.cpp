@@ -49,10 +49,10 @@ bool isSound(const std::vector<Vector3d>& points, const Ring& ring, double radiu
   return true;
 }
 
-// Patches of a joined face may have gaps of the tilt times the radius. That must be small against the cloud's
-// size. A ball that stands for a plane has no patches.
+// The patches of a joined face may have gaps as wide as the tilt times the radius. This width must be small
+// against the cloud's size. A ball that replaces a plane has no patches.
 double mostTilt(const std::vector<Vector3d>& points, double radius) {
-  constexpr double kSeam = 1e-19;  // of a radius that makes a plane: 1e-4 of the cloud's extent
+  constexpr double kSeam = 1e-19;  // share of flatRadius(): the gap is at most 1e-4 of the cloud's extent
   const double plane = flatRadius(points);
   return radius < plane ? std::min(kJoinTilt, kSeam * plane / radius) : kJoinTilt;
 }
@@ -115,7 +115,7 @@ class FaceJoiner {
            });
   }
 
-  // A face and those around it on its ball, as far as no group has them.
+  // A face and all connected faces that lie on its ball and are in no group yet.
   std::vector<std::size_t> grown(std::size_t seed) {
     std::vector<std::size_t> members{seed};
     group_[seed] = static_cast<int>(seed);
@@ -131,8 +131,8 @@ class FaceJoiner {
     return members;
   }
 
-  // The single loop around a group; empty where there is none (a ring, a pinch) and its faces must stay
-  // apart.
+  // The single loop around a group. Empty if the boundary is not a single loop: the group forms a ring or
+  // meets itself in a vertex. Then its faces must stay separate.
   Ring boundary(const std::vector<std::size_t>& members) const {
     const auto next = [&](int h) {
       const HalfEdge& e = half(h);
@@ -162,10 +162,12 @@ class FaceJoiner {
   double radius_;
   long double tolerance_;
   double tilt_;
-  std::vector<TouchingBall> balls_;  // for each face, as what follows
-  std::vector<Vector3d> normals_;    // at its first vertex
-  std::vector<double> area_;         // squared, of its widest triangle
-  std::vector<int> first_, group_;   // of its half-edges; the face that its group grew from, -1 for none yet
+  std::vector<TouchingBall> balls_;  // one for each face, as the next four members
+  std::vector<Vector3d> normals_;    // each at its face's first vertex
+  std::vector<double> area_;         // squared, of each face's widest triangle
+  // Index of each face's first half-edge; index of the face from which the face's group grew, -1 for none
+  // yet.
+  std::vector<int> first_, group_;
   std::vector<HalfEdge> halfEdges_;
 };
 

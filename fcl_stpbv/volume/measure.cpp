@@ -33,14 +33,14 @@ constexpr std::array<std::array<double, 2>, 10> kGauss{{{0.013046735741414, 0.03
                                                         {0.932531683344492, 0.074725674575290},
                                                         {0.986953264258586, 0.033335672154344}}};
 
-// The normals of a face differ by as little as its size over R: all are written as offsets from the patch's
-// axis, which the vertices give without cancellation.
+// The normals of a face differ only by its size over R. So all normals are written as offsets from the
+// patch's axis, which follow from the vertices without cancellation.
 double faceVolume(const StpBv& volume, const Region& region) {
   double sum = 0;
   const Patch patch = volume.patch(region.patch);
   const Vector3d anchor = patch.anchor - volume.centre(), middle = region.centre - patch.axis;
   const StpBv::Ring& ring = volume.faces()[static_cast<std::size_t>(region.patch - volume.facePatch(0))];
-  for (std::size_t k = 0; k < ring.size(); ++k) {  // where arc k starts
+  for (std::size_t k = 0; k < ring.size(); ++k) {  // arc k starts at vertex ring[k]
     const Arc& arc = region.boundary[k];
     const Vector3d first = (at(volume, ring[k]) - patch.anchor) / volume.radii().rho - middle;
     const Vector3d along = arc.axis.cross(arc.start);
@@ -87,7 +87,7 @@ double edgeVolume(const StpBv& volume, int edge) {
   return sum * radii.R / 3;
 }
 
-// A direction across the edge that its patch owns.
+// A direction perpendicular to the edge that belongs to the region of its patch.
 Vector3d acrossEdge(const StpBv& volume, int patch) {
   Vector3d sum = Vector3d::Zero(), last = Vector3d::Zero();
   for (const RegionBoundary boundary : volume.tables().patches.boundaries(patch))
@@ -98,7 +98,7 @@ Vector3d acrossEdge(const StpBv& volume, int patch) {
 }
 
 // Whether a patch has a region of normals that is not empty. An edge between two faces on one ball has an
-// empty one, and then its boundaries do not distinguish its side from the opposite side.
+// empty region, whose boundaries do not distinguish its side from the opposite side.
 bool hasNormals(const StpBv& volume, int patch) {
   constexpr double kTurn = 1e-12;  // rad
   const int edge = patch - volume.vertexCount();
@@ -106,14 +106,15 @@ bool hasNormals(const StpBv& volume, int patch) {
          volume.edges()[static_cast<std::size_t>(edge)].turn > kTurn;
 }
 
-// The normal at the patch's point farthest along n.p - h(n): towards p from the farthest centre. Where all
-// normals of a point, or all directions across an edge, serve alike, one that the patch owns.
+// The patch's normal with the largest n.p - h(n): from the patch's farthest centre towards p. If all normals
+// of a point, or all directions across an edge, give the same value, the result is one in the patch's region.
 Vector3d stationaryNormal(const StpBv& volume, int index, const Vector3d& p) {
   const Patch patch = volume.patch(index);
   const PatchKind kind = volume.kind(index);
   Vector3d g = p - unpack(posedPatch(volume, index).centre());
   if (kind == PatchKind::edge) {
-    // On the edge's line what is left across it is rounding, and leans along it by as much.
+    // For a point on the edge's line the part across the edge is only rounding, and has an equally large part
+    // along the edge.
     const double along = g.dot(patch.axis), rounding = 1e-15 * (p.norm() + std::abs(along));
     Vector3d side = g - along * patch.axis;
     side -= side.dot(patch.axis) * patch.axis;
@@ -122,7 +123,7 @@ Vector3d stationaryNormal(const StpBv& volume, int index, const Vector3d& p) {
         (length + patch.kappa) * (length > rounding ? Vector3d(side / length) : acrossEdge(volume, index));
   }
   const double length = g.norm();
-  // A point that is a vertex but for rounding has no direction from it.
+  // A point that coincides with the vertex up to rounding has no direction from the vertex.
   if (length > (kind == PatchKind::vertex ? 1e-12 * volume.enclosingRadius() : 0.0)) return g / length;
   if (kind == PatchKind::face) return patch.axis;
   Vector3d inside = Vector3d::Zero();
@@ -147,7 +148,7 @@ double enclosedVolume(const StpBv& volume) {
       continue;
     }
     const Vector3d p = volume.patch(region.patch).anchor - volume.centre();
-    const double share = volume.edgeCount() == 0 ? 0.5 : 1;  // a lone sphere comes as two halves
+    const double share = volume.edgeCount() == 0 ? 0.5 : 1;  // regions() gives a lone sphere as two halves
     sum +=
         r * r / 3 * (p.dot(vectorArea(region)) + r * share * angles[static_cast<std::size_t>(region.patch)]);
   }
@@ -164,7 +165,7 @@ double signedDistance(const StpBv& volume, const Vector3d& point) {
   // The largest value belongs to the patch that owns its normal. Any normal gives a valid lower bound if the
   // support of its true owner is used. So it does no harm if rounding moves a normal across a boundary, as
   // may happen close to a vertex.
-  constexpr double kNear = 1e-3;  // a sine; rounding moves no normal so far
+  constexpr double kNear = 1e-3;  // the sine of an angle by which rounding never moves a normal
   double best = -2 * volume.radii().R;
   for (int index = 0; index < volume.patchCount(); ++index) {
     if (!hasNormals(volume, index)) continue;

@@ -16,7 +16,8 @@ struct Candidate {
   long double radius2 = -1;
 };
 
-// Smallest ball through all of the given one to four points, or none where they are dependent.
+// Smallest ball through all of the given one to four points; its radius2 is negative if the points are
+// dependent.
 Candidate ballThrough(const std::vector<LongVector>& p) {
   Candidate ball;
   const Eigen::Index k = static_cast<Eigen::Index>(p.size()) - 1;

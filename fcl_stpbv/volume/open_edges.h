@@ -6,26 +6,27 @@
 
 namespace fcl_stpbv::detail {
 
-/// Half-edges in lists by the vertex they start from: a vertex has few, so that each is found in a few steps.
+/// Open half-edges, in one list for each vertex from which they start. A vertex has few, so that each is
+/// found in a few steps.
 class OpenEdges {
  public:
   explicit OpenEdges(std::size_t vertices) : first_(vertices, kNone) {}
 
-  /// The half-edge `from` -> `to` at a face's corner.
+  /// Adds the half-edge `from` -> `to` at a face's corner.
   void add(int from, int to, int face, int corner) {
     int& first = first_[static_cast<std::size_t>(from)];
     edges_.push_back({to, face, corner, first});
     first = static_cast<int>(edges_.size()) - 1;
   }
 
-  /// Face of an open half-edge `from` -> `to`; -1 where there is none.
+  /// Face of an open half-edge `from` -> `to`; -1 if there is none.
   int face(int from, int to) const {
     for (int e = first_[static_cast<std::size_t>(from)]; e != kNone; e = edge(e).next)
       if (edge(e).to == to) return edge(e).face;
     return kNone;
   }
 
-  /// Takes the half-edge `from` -> `to` of this face out; its corner, or -1 where it is not open.
+  /// Removes the half-edge `from` -> `to` of this face. Returns its corner, or -1 if it is not open.
   int close(int from, int to, int face) {
     for (int* link = &first_[static_cast<std::size_t>(from)]; *link != kNone; link = &edge(*link).next) {
       const Edge found = edge(*link);

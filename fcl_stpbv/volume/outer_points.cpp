@@ -21,7 +21,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-// For smaller clouds this would take longer than it saves.
+// Clouds of up to this size keep all points: the removal would take longer than it saves.
 constexpr std::size_t kFew = 10000;
 // Number of points for the hull. The hull of 3000 points spread through a body lacks a few percent of its
 // volume.
@@ -32,8 +32,8 @@ struct Plane {
   double offset;
 };
 
-// Planes around a body inside the points' hull, by `margin`; none where the
-// points are a surface, or too thin.
+// Planes around a body that lies inside the points' hull by `margin`. Empty if many points are vertices, as
+// on a surface, or if a face's triangle is too thin.
 std::vector<Plane> bodyInside(const std::vector<Vector3d>& points, double margin) {
   std::vector<Vector3d> some;
   for (std::size_t k = 0; k < kSome; ++k) some.push_back(points[k * points.size() / kSome]);
@@ -43,14 +43,14 @@ std::vector<Plane> bodyInside(const std::vector<Vector3d>& points, double margin
   } catch (const Error&) {
     return {};
   }
-  if (hull.faces.size() > kSome / 2) return {};  // a quarter of the points are vertices, or more
+  if (hull.faces.size() > kSome / 2) return {};  // then at least a quarter of the points are vertices
   std::vector<Plane> planes;
   for (const Ring& ring : hull.faces) {
     const std::array<int, 3> t = wideTriangle(some, ring);
     const Vector3d& a = some[static_cast<std::size_t>(t[0])];
     const Vector3d u = some[static_cast<std::size_t>(t[1])] - a, v = some[static_cast<std::size_t>(t[2])] - a,
                    n = u.cross(v);
-    constexpr double kThin = 1e-6;  // a thinner triangle's plane may be off by as much as the margin
+    constexpr double kThin = 1e-6;  // the plane of a thinner triangle may be off by as much as the margin
     if (!(n.norm() > kThin * u.norm() * v.norm())) return {};
     planes.push_back({n.normalized(), n.normalized().dot(a) - margin});
   }
@@ -72,12 +72,13 @@ struct Grid {
   }
 };
 
-// For each cell whether all its corners are below all planes.
+// For each cell: whether all its corners are below all planes.
 std::vector<char> cellsInside(const Grid& grid, const std::vector<Plane>& planes) {
   const int side = grid.side, corners = side + 1;
   std::vector<char> corner;
   corner.reserve(static_cast<std::size_t>(corners * corners * corners));
-  std::size_t last = 0;  // the plane that the last corner was above is likely above this one too
+  // The previous corner outside was above this plane, so the next one is likely above it, too.
+  std::size_t last = 0;
   for (int i = 0; i < corners; ++i)
     for (int j = 0; j < corners; ++j)
       for (int k = 0; k < corners; ++k) {
@@ -112,7 +113,8 @@ std::vector<int> outerPoints(const std::vector<Vector3d>& points) {
   const double size = std::max(low.cwiseAbs().maxCoeff(), high.cwiseAbs().maxCoeff());
   const std::vector<Plane> planes = bodyInside(points, 1e-6 * size);
   if (planes.empty()) return outer;
-  // About eight points a cell; more cells than the last would take longer than they save.
+  // About eight points in each cell, but at most 50 cells along a side: more would take longer than they
+  // save.
   const int side = std::clamp(static_cast<int>(std::cbrt(static_cast<double>(points.size())) / 2), 2, 50);
   const Grid grid{low, (high - low) / side, side};
   const std::vector<char> inside = cellsInside(grid, planes);

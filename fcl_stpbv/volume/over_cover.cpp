@@ -23,9 +23,10 @@ namespace {
 using namespace detail;
 using Eigen::Vector3d;
 
-// Largest difference of the support functions over the normals of one hull edge: an arc
-// about the edge, where the hull's is that of the edge's points. The difference grows where
-// the surface point lies ahead of the edge.
+// Largest difference of the support functions over the normals of one hull edge. These normals form an arc
+// about the edge. For all of them the hull's support function is that of the edge's points, such as `p`. The
+// difference grows with the angle where the surface point lies ahead of the edge, on the side to which the
+// normal turns.
 double largestOverEdge(const StpBv& volume, const Vector3d& p, const Vector3d& u, const Vector3d& start,
                        double turn) {
   const Vector3d side = u.cross(start);
@@ -59,7 +60,7 @@ double largestOverEdge(const StpBv& volume, const Vector3d& p, const Vector3d& u
   return best;
 }
 
-// Degree five on a triangle: seven points with their weights, in barycentric coordinates.
+// Quadrature of degree five on a triangle: seven points in barycentric coordinates, with their weights.
 struct TrianglePoint {
   double a, b, c, weight;
 };
@@ -74,7 +75,8 @@ constexpr std::array<TrianglePoint, 7> kTriangle{{{1.0 / 3, 1.0 / 3, 1.0 / 3, kW
                                                   {kB2, kA2, kB2, kW2},
                                                   {kB2, kB2, kA2, kW2}}};
 
-// Mean height of a spindle over its own segment: an arc of radius R.
+// Mean height of a spindle over the segment between its vertices. The spindle's outline is an arc of radius
+// R.
 double meanOverSegment(const StpBv& volume) {
   const Radii& radii = volume.radii();
   const Patch patch = volume.patch(volume.edgePatch(0));
@@ -97,7 +99,8 @@ CoveredHull::CoveredHull(const std::vector<Vector3d>& points) : points_(points) 
   corners_ = std::move(hull.vertices);
   for (const std::vector<int>& ring : faces_) {
     const std::array<int, 3> wide = wideTriangle(points_, ring);
-    // The builder's own ball: the cross product of a sliver's sides is rounding.
+    // The normal of the ball that the builder uses. The cross product of a sliver's sides would be only
+    // rounding.
     normals_.push_back(TouchingBall(at(wide[0]), at(wide[1]), at(wide[2]), flat).normalAt(at(ring[0])));
   }
   halfEdges_ = pairHalfEdges(points_, faces_, normals_, flat);
@@ -109,7 +112,7 @@ double CoveredHull::max(const StpBv& volume) const {
     return n.dot(volume.patch(patch).anchor - at(vertex)) + supportAboveAnchor(volume, patch, n);
   };
   double best = 0;
-  if (faces_.empty()) {  // a point, or a segment as an edge with normals all the way round
+  if (faces_.empty()) {  // a point or a segment: counts as one edge with normals all the way round
     const Vector3d edge = at(corners_.back()) - at(corners_.front());
     const Vector3d u = edge.norm() > 0 ? Vector3d(edge.normalized()) : Vector3d::UnitX();
     best = std::max(along(u, corners_.back()), along(-u, corners_.front()));

@@ -10,20 +10,23 @@
 
 namespace fcl_stpbv::detail {
 
-/// Half of what bounds an edge's region of normals: the plane to a face or to another part of the edge.
+/// One of the two planes that bound an edge's region of normals, towards a face or another part of the edge.
+/// It also holds two of the edge's four neighbours.
 struct Wall {
-  std::array<double, 3> normal;      ///< unit, out of the region
-  std::array<std::int32_t, 2> past;  ///< patches: the first wall's past the boundaries of the second vertex
-                                     ///< and of the first, the second wall's past the two walls
+  /// Unit, points out of the region.
+  std::array<double, 3> normal;
+  /// Neighbouring patches. First wall: past the boundaries of the second vertex and of the first one. Second
+  /// wall: past the two walls.
+  std::array<std::int32_t, 2> past;
 };
 
-/// An edge's patch (stp_bv.h) with the four boundaries of its region. A spindle has no walls, and its
-/// vertices twice. All boundaries of a volume are stored with the edges; vertices and faces refer to them as
-/// sides. An edge has two sides, each with one of its ends and one of its walls. The number of a side is the
-/// byte offset of that wall among all records.
+/// An edge's patch (stp_bv.h) with the four boundaries of its region. A spindle has no walls; its second wall
+/// names the two vertices again. All boundaries of a volume are stored with the edges; vertices and faces
+/// refer to them as sides. An edge has two sides, each with one of its ends and one of its walls. The number
+/// of a side is the byte offset of its wall from the first record.
 struct alignas(64) EdgeRecord {
-  Packed middle;  ///< fourth: kappa
-  Packed axis;    ///< fourth: sine
+  Packed middle;  ///< the fourth number is kappa
+  Packed axis;    ///< the fourth number is the sine
   std::array<Wall, 2> wall;
 
   static std::int32_t side(std::size_t edge, std::size_t end) {
@@ -35,11 +38,11 @@ struct alignas(64) EdgeRecord {
 };
 static_assert(sizeof(EdgeRecord) == 128);
 
-/// Sides of one patch; what is unused repeats the last.
+/// Sides of one patch. Unused places repeat the last side.
 struct Sides {
   static constexpr std::size_t kSize = 8;
   std::array<std::int32_t, kSize> side;
-  std::int32_t next;  ///< of the patch's further sides, -1: none
+  std::int32_t next;  ///< index of the block with the patch's further sides, -1: none
 };
 
 struct alignas(64) VertexRecord {
@@ -51,10 +54,11 @@ static_assert(sizeof(VertexRecord) == 64);
 struct alignas(64) FaceRecord {
   static constexpr std::size_t kSize = 4;
   Eigen::Vector3d anchor, normal;
-  std::array<std::int32_t, kSize> side;  ///< in the ring's order, a triangle's last one twice; of more than
-                                         ///< four the last one is ~ the place of the further sides
+  /// Sides in the ring's order. A triangle repeats its last side. A face with more than four sides has three
+  /// here; the last entry is ~i, with i the index of the block that has the others.
+  std::array<std::int32_t, kSize> side;
 
-  /// How many of the sides are here, and the place of those that are not, -1: none.
+  /// count(): number of sides stored here. further(): index of the block with the others, -1: none.
   std::size_t count() const { return side[3] < 0 || side[3] == side[2] ? 3 : 4; }
   std::int32_t further() const { return side[3] < 0 ? ~side[3] : -1; }
 };

@@ -14,7 +14,7 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// Puts the sides into a block, the last one again into what is left over.
+/// Copies the sides into a block, and repeats the last one in the places left over.
 template <std::size_t kSize>
 void fill(std::array<std::int32_t, kSize>& block, const std::int32_t* sides, std::size_t count) {
   for (std::size_t k = 0; k < kSize; ++k) block[k] = sides[std::min(k, count - 1)];
@@ -40,7 +40,7 @@ PatchTable::PatchTable(const std::vector<Vector3d>& vertices, std::vector<EdgeRe
     vertices_.push_back({vertices[v], {{}, addFurther(sides, here)}});
     fill(vertices_.back().sides.side, sides.data(), here);
   }
-  std::vector<std::size_t> place(vertices.size());  // in the ring of the face
+  std::vector<std::size_t> place(vertices.size());  // of each vertex in the face's ring
   faces_.reserve(faces.size());
   for (std::size_t f = 0; f < faces.size(); ++f) {
     for (std::size_t i = 0; i < faces[f].size(); ++i) place[static_cast<std::size_t>(faces[f][i])] = i;
@@ -57,7 +57,8 @@ PatchTable::PatchTable(const std::vector<Vector3d>& vertices, std::vector<EdgeRe
   further_.shrink_to_fit();
 }
 
-/// An edge's first vertex and first wall belong to its first part, the second ones to its last.
+/// An edge may have several parts. Its first vertex and first wall belong to its first part, the second ones
+/// to its last part.
 void PatchTable::joinSides(std::vector<std::vector<std::int32_t>>& atVertex,
                            std::vector<std::vector<std::int32_t>>& atFace) {
   for (auto& sides : atVertex) sides.reserve(Sides::kSize);  // nearly always enough
@@ -74,7 +75,8 @@ void PatchTable::joinSides(std::vector<std::vector<std::int32_t>>& atVertex,
   atVertex[0] = {EdgeRecord::side(0, 0)};
 }
 
-/// The blocks of the sides from that one on, chained; -1 where there are none.
+/// Stores the sides from number `from` on in a chain of blocks. Returns the index of the first block, -1 if
+/// there is none.
 std::int32_t PatchTable::addFurther(const std::vector<std::int32_t>& sides, std::size_t from) {
   std::int32_t next = -1;
   for (std::size_t blocks = (sides.size() - from + Sides::kSize - 1) / Sides::kSize; blocks-- > 0;) {
@@ -102,7 +104,7 @@ Patch PatchTable::patch(int index) const {
 
 RegionBoundary PatchTable::boundary(int patch, std::int32_t side) const {
   switch (kind(patch)) {
-    case PatchKind::edge: {  // its own, numbered as by `EdgeRecord::past`
+    case PatchKind::edge: {  // the edge's own, numbered as in `EdgeRecord::past`
       const EdgeRecord& e = edge(patch);
       const auto k = static_cast<std::size_t>(side);
       if (k > 1) return {unpack(boundaryOf(e.wall[k - 2])), 0, e.past(k)};

@@ -19,15 +19,16 @@
 
 namespace fcl_stpbv::detail {
 
-/// One side of a patch's region of normals: `n` is inside iff `n.normal <= limit`; past it lies `neighbour`.
+/// One side of a patch's region of normals. `n` is inside iff `n.normal <= limit`; past the boundary lies
+/// `neighbour`.
 struct RegionBoundary {
   Eigen::Vector3d normal;
   double limit;
   int neighbour;
 };
 
-/// The boundary that a normal passes furthest: `past` is the largest `n.normal
-/// - limit`, <= 0 inside all of them.
+/// The boundary that a normal passes furthest. `past` is the largest `n.normal - limit`; it is <= 0 if the
+/// normal is inside all boundaries.
 struct Crossing {
   double past;
   int neighbour;
@@ -37,17 +38,17 @@ struct Crossing {
 /// vectors.
 constexpr double kBoundaryRounding = 4 * std::numeric_limits<double>::epsilon();
 
-/// Patches by number: vertices, then edges with their further parts, then faces.
-/// Boundaries are tested four at a time.
+/// Patches by number: vertices, then edges with their further parts, then faces. Boundaries are tested four
+/// at a time.
 class PatchTable {
  public:
   class Boundaries;
 
   PatchTable() = default;
 
-  /// Joins vertices, edges and faces by the neighbours that the edges name. A face is its vertices
-  /// counter-clockwise and the unit normal at the first one.
-  /// @throws Error for more edges than can be numbered.
+  /// Joins vertices, edges and faces by the neighbours that the edges name. A face is given by its vertices,
+  /// counter-clockwise, and the unit normal at its first vertex.
+  /// @throws Error if there are more edges than can be numbered.
   PatchTable(const std::vector<Eigen::Vector3d>& vertices, std::vector<EdgeRecord> edges,
              const std::vector<std::vector<int>>& faces, const std::vector<Eigen::Vector3d>& normals);
 
@@ -65,27 +66,29 @@ class PatchTable {
   Patch patch(int index) const;
   Boundaries boundaries(int patch) const;
 
-  /// The vertex at a side's end; of a face's sides, counter-clockwise, the one where it begins.
+  /// The vertex at a side's end of its edge. Of a face's side it is the vertex where the side begins,
+  /// counter-clockwise.
   int startOf(std::int32_t side) const { return edgeOf(side).past(isSecond(side) ? 0 : 1); }
 
-  /// The boundary of the patch that `n` passes furthest: `length` times as far as a unit vector would.
+  /// The boundary of the patch that `n` passes furthest. `past` is `length` (the length of `n`) times the
+  /// value for a unit vector.
   Crossing crossing(int patch, const Packed& n, double length = 1.0) const {
     const Packed to = withFourth(n, length);
     return most(patch, [&](const auto& pastAll) { return pastAll(to); });
   }
 
-  /// The boundary of the patch that the way from the unit normal `n` along the tangent `h` meets first:
-  /// `past` is the inverse of its distance; about 0 or less if there is none.
+  /// The boundary that is met first on the way from the unit normal `n` along the tangent `h`. `past` is the
+  /// inverse of the distance to it; about 0 or less if there is none.
   Crossing ahead(int patch, const Packed& n, const Packed& h) const {
-    constexpr double kAtOnce = 1e-12;  // rad; `n` may be past the boundary already
+    constexpr double kAtOnce = 1e-12;  // rad; the least distance: `n` may be past the boundary already
     const Packed at = withFourth(n, 1.0), to = withFourth(h, 0.0), least = Packed{} + kAtOnce;
     return most(patch, [&](const auto& pastAll) { return pastAll(to) / larger(-pastAll(at), least); });
   }
 
-  /// Has the records past the patch's boundaries brought near the processor, for a query that is likely to go
-  /// there next; a small volume's are there anyway.
+  /// Prefetches the records of the neighbouring patches into the processor's cache, for a query that is
+  /// likely to go there next. A small volume's records are in the cache anyway.
   void prefetchBeside(int patch) const {
-    constexpr int kSmall = 100;  // patches: half of the nearest cache
+    constexpr int kSmall = 100;  // patches; they fill half of the nearest cache
     if (count() < kSmall) return;
     switch (kind(patch)) {
       case PatchKind::vertex:
@@ -103,9 +106,10 @@ class PatchTable {
     }
   }
 
-  /// The same and, of a volume too large to stay near, of what lies past those records in turn.
+  /// prefetchBeside(). For a volume too large to stay in the cache, it also prefetches the neighbours'
+  /// neighbours.
   void prefetchAround(int patch) const {
-    constexpr int kLarge = 3000;  // patches: half a megabyte
+    constexpr int kLarge = 3000;  // patches; they fill half a megabyte
     prefetchBeside(patch);
     if (count() < kLarge) return;
     switch (kind(patch)) {
@@ -133,7 +137,7 @@ class PatchTable {
     }
   }
 
-  /// Memory it holds, in bytes.
+  /// Memory that the table uses, in bytes.
   std::size_t memory() const {
     return vertices_.capacity() * sizeof(VertexRecord) + edges_.capacity() * sizeof(EdgeRecord) +
            faces_.capacity() * sizeof(FaceRecord) + further_.capacity() * sizeof(Sides);
@@ -155,7 +159,7 @@ class PatchTable {
   static void prefetch(const Record& record) {
     constexpr std::size_t kLine = 64;  // bytes
     const char* there = reinterpret_cast<const char*>(&record);
-    asm volatile("");  // GCC leaves out calls of functions that do nothing but prefetch
+    asm volatile("");  // without this, GCC leaves out calls of functions that only prefetch
     for (std::size_t at = 0; at < sizeof record; at += kLine) __builtin_prefetch(there + at);
   }
 
@@ -163,23 +167,23 @@ class PatchTable {
     for (std::size_t k = 0; k < 3; ++k) prefetch(edgeOf(face.side[k]));
   }
 
-  /// A boundary as its normal and less its limit, so that times a unit vector
-  /// and 1 it is how far that is past.
+  /// A vertex's boundary: its normal, with minus its limit as the fourth number. So the product with a unit
+  /// vector and a fourth number of 1 is how far the vector is past the boundary.
   Packed boundaryAtVertex(std::int32_t side) const {
     static constexpr PackedBits opposite[2] = {{}, kOpposite3};
     PackedBits bits;
     std::memcpy(&bits, reinterpret_cast<const char*>(opposite) + (bytes(side) & sizeof(Wall)), sizeof bits);
     return fromBits(bitsOf(edgeOf(side).axis) ^ bits);
   }
-  /// The same for a wall, whose limit is 0.
+  /// A wall's boundary in the same form. Its limit is 0.
   static Packed boundaryOf(const Wall& wall) {
     PackedBits bits;
     std::memcpy(&bits, &wall, sizeof bits);
     return fromBits(bits & PackedBits{-1, -1, -1, 0});
   }
 
-  /// How far `n`, with its length fourth, is past each of four sides' boundaries, of a vertex or of a face:
-  /// the walls face the other way there.
+  /// How far `n`, with its length as the fourth number, is past the boundaries of four sides of a vertex or
+  /// of a face. For a face the walls point the other way.
   template <PatchKind kind>
   Packed pastSides(const std::int32_t* side, const Packed& n) const {
     const Packed to = kind == PatchKind::face ? -n : n;
@@ -188,7 +192,8 @@ class PatchTable {
     };
     return sums(past(0), past(1), past(2), past(3));
   }
-  /// And past the four boundaries of an edge, in the order of `EdgeRecord::past`.
+  /// How far `n`, with its length as the fourth number, is past the four boundaries of an edge, in the order
+  /// of `EdgeRecord::past`.
   static Packed pastSidesOf(const EdgeRecord& edge, const Packed& n) {
     const Packed second = edge.axis * fromBits(bitsOf(n) ^ kOppositeFourth),
                  first = fromBits(bitsOf(second) ^ kOpposite3);
@@ -196,7 +201,8 @@ class PatchTable {
     return sums(second, first, boundaryOf(edge.wall[0]) * n, boundaryOf(edge.wall[1]) * n);
   }
 
-  /// Numbers with their places from `first` on, below eight, for their three least bits.
+  /// Replaces the three lowest bits of each number by its place: `first`, `first` + 1 and so on, all below
+  /// eight.
   static Packed tagged(const Packed& v, std::int64_t first) {
     constexpr PackedBits places{0, 1, 2, 3};
     return fromBits((bitsOf(v) & ~std::int64_t{Sides::kSize - 1}) | (places + first));
@@ -207,8 +213,9 @@ class PatchTable {
     return key & (Sides::kSize - 1);
   }
 
-  /// The largest of what the patch's boundaries give for themselves, and past which boundary that is.
-  /// `measure` makes four numbers from what gives how far anything is past four boundaries.
+  /// The largest value of `measure` over the patch's boundaries, and the neighbour past the boundary that has
+  /// it. `measure` is called with a function that tells how far a vector is past four boundaries; it returns
+  /// four numbers.
   template <typename Measure>
   Crossing most(int patch, const Measure& measure) const {
     if (patch < firstEdge_) return mostOf<PatchKind::vertex>(vertex(patch).sides, measure);
@@ -228,7 +235,7 @@ class PatchTable {
     return here.past >= there.past ? here : there;
   }
 
-  /// The same of eight sides and those that follow.
+  /// most() for a block of eight sides and the blocks chained to it.
   template <PatchKind kind, typename Measure>
   Crossing mostOf(const Sides& first, const Measure& measure) const {
     const auto mostOfEight = [&](const Sides& sides) -> Crossing {
@@ -246,7 +253,7 @@ class PatchTable {
     return most;
   }
 
-  /// What the boundaries of four sides from `first` on give, with their places.
+  /// The values of `measure` for four sides from place `first` on, tagged with their places.
   template <PatchKind kind, typename Measure>
   Packed ofFour(const std::int32_t* side, std::int64_t first, const Measure& measure) const {
     return tagged(measure([&](const Packed& n) { return pastSides<kind>(side + first, n); }), first);
@@ -259,12 +266,12 @@ class PatchTable {
 
   int firstEdge_ = 0, firstFace_ = 0;
   std::vector<VertexRecord> vertices_;
-  std::vector<EdgeRecord> edges_;  // a volume of one vertex has one, whose boundary holds for any normal
+  std::vector<EdgeRecord> edges_;  // a volume of one vertex has one edge, whose boundary holds for any normal
   std::vector<FaceRecord> faces_;
-  std::vector<Sides> further_;  // of vertices with more than eight, of faces with more than four
+  std::vector<Sides> further_;  // sides of vertices beyond eight, of faces beyond four
 };
 
-/// The boundaries of one patch, one by one.
+/// Goes over the boundaries of one patch, one by one.
 class PatchTable::Boundaries {
  public:
   class Iterator {

@@ -12,14 +12,14 @@
 
 namespace fcl_stpbv::detail {
 
-/// A patch with all that its formula needs, in the frame of its anchor and axis.
+/// A patch with all data that its formula needs, in the frame of its anchor and axis.
 struct PosedPatch {
   Packed anchor, axis;
   double kappa, sine;
   PatchKind kind;
-  const Radii* radii;  ///< the body's
+  const Radii* radii;  ///< of the body
 
-  /// Centre of the patch's point or circle (m); a vertex has no axis.
+  /// Centre of the patch's point or circle (m). A vertex has no axis.
   Packed centre() const { return kind == PatchKind::face ? Packed(anchor - radii->rho * axis) : anchor; }
 };
 
@@ -51,7 +51,7 @@ struct EdgeView {
   double c;       // sqrt(1 - v^2)
   double around;  // radius of curvature around the edge, rho - kappa / c
   double rise;    // height of the supporting plane above the edge's middle
-  Packed offset;  // core point, from the edge's middle
+  Packed offset;  // the core's point, relative to the edge's middle
 };
 
 /// The lengths of docs/theory.md, 2, without cancellation. `rho c - kappa` is a difference of tens of metres
@@ -62,7 +62,8 @@ inline EdgeView viewEdge(const PosedPatch& edge, const Packed& n) {
   const double v = dot(n, edge.axis), rho2 = rho * rho;
   const Packed side = n - v * edge.axis;
   double c2 = 1.0 - v * v;
-  if (c2 < 0.25) c2 = std::max(dot(side, side), 1e-30);  // along the edge that difference cancels
+  // Where n is nearly along the edge, the difference cancels.
+  if (c2 < 0.25) c2 = std::max(dot(side, side), 1e-30);
   EdgeView e;
   e.c = std::sqrt(c2);
   e.around = kappa > 0.5 * rho ? rho2 * ((s - v) * (s + v)) / (rho * c2 + kappa * e.c) : rho - kappa / e.c;

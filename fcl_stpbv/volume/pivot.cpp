@@ -19,28 +19,29 @@ namespace fcl_stpbv::detail {
 namespace {
 
 using Eigen::Vector3d;
-constexpr double kDiametral = 1 + 1e-9;  // the edge's own ends must not fall out by rounding
+constexpr double kDiametral = 1 + 1e-9;  // so that rounding does not leave out the edge's own ends
 
-// leavingAngle() from the ball at rest, for a point so close to a or b that
-// its own angle is lost in rounding.
+// Takes the place of leavingAngle() for a point so close to a or b that its own angle is lost in rounding.
+// The angle is taken from the ball at rest.
 double angleOf(const RollingCloud& cloud, const TouchingBall& ball, int a, int b, const Vector3d& across) {
   const Vector3d side = (cloud.at(b) - cloud.at(a)).normalized().cross(across);
   const double angle = std::atan2(ball.normal().dot(side), ball.normal().dot(across));
-  constexpr double kRounding = 1e-8;  // rad: so far below 0 an angle of 0 may come out
+  constexpr double kRounding = 1e-8;  // rad; an angle of 0 may come out this far below 0
   return angle < -kRounding ? angle + kTwoPi : std::max(0.0, angle);
 }
 
 // A point that the ball leaves before it has rolled by `rest` and that is inside again by then; -1 if there
 // is none. Such a point is outside for only a part of the roll. If that part is less than half a turn, the
-// point is one of those `aside` of the edge; otherwise it is outside in the middle of the roll.
+// point lies in the ball that has the edge as its diameter (`aside`). Otherwise the point is outside in the
+// middle of the roll.
 int leftOnTheWay(const RollingCloud& cloud, int a, int b, const Vector3d& across, double rest) {
   const Vector3d edge = cloud.at(b) - cloud.at(a), u = edge.normalized(), side = u.cross(across);
   std::vector<int> aside;
   cloud.tree.within(cloud.at(a) + 0.5 * edge, 0.5 * edge.norm() * kDiametral, &aside);
   const double sine = std::sin(rest), cosine = std::cos(rest),
-               margin = 1e-9 * edge.norm();  // far above rounding: what is in the wedge to rounding is asked
+               margin = 1e-9 * edge.norm();  // far above rounding, so that no point in the wedge is left out
   int left = -1;
-  double first = rest - 1e-8;  // rad, as in angleOf(); later ones are still outside at the end
+  double first = rest - 1e-8;  // rad, as in angleOf(); points that leave later are still outside at the end
   for (const int i : aside) {
     if (i == a || i == b) continue;
     // A point is highest over the ball when the normal points at it across the edge; most points do not lie
@@ -87,7 +88,8 @@ double leavingAngle(const RollingCloud& cloud, int a, int b, const Vector3d& acr
   if (s <= std::abs(constant) || s < 1e-14L * length) return -1;
   double angle = static_cast<double>(std::atan2(y, x) - std::acos(-constant / s));
   while (angle < 0) angle += kTwoPi;
-  // A point that leaves at once may come out a rounding behind; none stays for a whole turn but a rounding.
+  // If a point leaves at once, rounding may make its angle almost a whole turn. No point stays inside that
+  // long.
   return angle > kTwoPi - 1e-8 ? 0 : angle;
 }
 
@@ -96,9 +98,10 @@ Ring pivot(RollingCloud& cloud, int a, int b, const Vector3d& across, int candid
   for (int round = 0; round < 10000; ++round) {
     const TouchingBall ball(cloud.at(b), cloud.at(a), cloud.at(candidate), cloud.radius);
     if (!ball.valid()) break;
-    // What double precision can get wrong in a height over this ball.
+    // Largest error of a height over this ball in double precision (m).
     const double tolerance = cloud.extent * (2e-15 + 4 * ball.normalError());
-    // Any point outside leaves the ball before the present candidate does; one close by is quickly found.
+    // Any point outside leaves the ball before the present candidate does. A point near a or b is quickly
+    // found.
     PointTree::Highest top =
         cloud.tree.highestBeside(round % 2 == 0 ? a : b, cloud.at(b), ball.normal(), cloud.curvature);
     if (top.height <= tolerance)

@@ -7,9 +7,9 @@
 
 namespace fcl_stpbv::detail {
 
-/// Whether the ball that has the edge as its diameter contains no other point. Only a point in it can leave
-/// the rolling ball and enter it again within half a turn, and only then can two vertices be joined by two
-/// edges.
+/// Whether the ball that has the edge as its diameter contains no other point. Only a point in this ball can
+/// leave the rolling ball and enter it again within half a turn, and only then can two vertices be joined by
+/// two edges.
 bool isLone(const RollingCloud& cloud, int a, int b);
 
 /// The ball rests on a and b, with its normal turned towards `across`. Returns the angle by which it rolls

@@ -16,7 +16,7 @@ inline void requireFinite(std::size_t number, const Eigen::Vector3d& point) {
     throw Error("point " + std::to_string(number) + " is not finite: every coordinate must be a number");
 }
 
-/// The same of all points.
+/// Checks all points; the number of a point is its index.
 inline void requireFinite(const std::vector<Eigen::Vector3d>& points) {
   for (std::size_t i = 0; i < points.size(); ++i) requireFinite(i, points[i]);
 }

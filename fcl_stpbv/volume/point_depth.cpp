@@ -27,18 +27,19 @@ using Eigen::Vector3d;
 namespace {
 
 struct Power {
-  double value;  ///< of the point to the face's ball, or to a smaller one about its centre (m^2)
-  int face;      ///< its place among the faces; -1: none
+  /// Power of the point with respect to the face's ball, or to a smaller ball about the same centre (m^2)
+  double value;
+  int face;  ///< index among the faces, -1: none
 };
 
-/// All ways out.
+/// Allows all ways out.
 struct AllWays {};
 
-/// Those that lean against none of some sides.
+/// Allows only ways out whose product with none of the given sides is negative.
 struct WaysBetween {
   const Vector3d* side;  ///< unit
   int count;
-  double rounding;  ///< of a way's product with one, where it is as long as a ball's radius (m)
+  double rounding;  ///< rounding of the product of a side and a way as long as a ball's radius (m)
 
   PackedBits allow(const FourVectors& way) const {
     PackedBits allowed = PackedBits{} - 1;
@@ -47,19 +48,20 @@ struct WaysBetween {
   }
 };
 
-/// The largest power above `above` over the faces that one of the `ways` leads through, four at a time. It is
-/// that to the balls of the radius `about` around the faces' centres, |p - c|^2 - about^2.
+/// The largest power that is greater than `above`, over the faces whose way out is one of the `ways`. Four
+/// faces are handled at a time. The power is that of balls of the radius `about` around the centres of the
+/// faces' balls, |p - c|^2 - about^2.
 template <typename Ways>
 inline Power largestPower(const FaceRecord* faces, int count, double rho, double about, const Packed& p,
                           double above, const Ways& ways) {
-  const auto read = [](const Vector3d& v) {  // the fourth number is the record's next
+  const auto read = [](const Vector3d& v) {  // the fourth number is the next one in the record
     Packed four;
     std::memcpy(&four, v.data(), sizeof four);
     return four;
   };
   const FourVectors point = four(p);
   Packed most = Packed{} + above;
-  PackedBits first = PackedBits{} - 1;  // the first face of the four that each is of
+  PackedBits first = PackedBits{} - 1;  // for each place of `most`, the first of the four faces that gave it
   for (int f = 0; f < count; f += 4) {
     const FaceRecord& s = faces[f];
     const FaceRecord& t = faces[std::min(f + 1, count - 1)];
@@ -84,19 +86,20 @@ inline Power largestPower(const FaceRecord* faces, int count, double rho, double
   return {most[lane], std::min(static_cast<int>(first[lane]) + lane, count - 1)};
 }
 
-/// The least depth in a face's ball, of those that are less than `below` and whose way is one of `ways`.
+/// The least depth in a face's ball that is less than `below` and whose way out is one of `ways`.
 template <typename Ways>
 inline PointDepth depthInBalls(const StpBv& body, const Vector3d& p, double below, const Ways& ways) {
-  constexpr double kFar = 4.0;  // of the coordinates: then no way is much shorter than the radius
+  constexpr double kFar = 4.0;  // times the coordinates: with a larger rho no way is much shorter than rho
   const PatchTable& patches = body.tables().patches;
   const double rho = body.radii().rho;
   const bool far = rho > kFar * ((p - body.centre()).norm() + body.enclosingRadius());
-  const double about = far ? rho : 0.0, least = std::max(0.0, rho - below);  // of a way's length
+  // `least` is the least length of a way.
+  const double about = far ? rho : 0.0, least = std::max(0.0, rho - below);
   const Power power = largestPower(&patches.face(patches.firstFace()), patches.count() - patches.firstFace(),
                                    rho, about, pack(p), far ? -below * (rho + least) : least * least, ways);
   if (power.face < 0) return {kInfinity, Vector3d(0, 0, 0), -1};
   const FaceRecord& face = patches.face(patches.firstFace() + power.face);
-  const Vector3d way = p - face.anchor + rho * face.normal;  // from the ball's centre
+  const Vector3d way = p - face.anchor + rho * face.normal;  // from the ball's centre to p
   const double length = way.norm();
   return {far ? -power.value / (rho + length) : rho - length, way / length, patches.firstFace() + power.face};
 }
@@ -116,7 +119,8 @@ PointDepth leastDepth(const StpBv& body, const Vector3d& p, double below, const 
 std::optional<PointDepth> pointDepth(const StpBv& body, const Vector3d& p) {
   const double least = body.tables().capHeight;
   if (std::isinf(least)) return {};
-  constexpr double kCentred = 0.999;  // of the ball's radius: no way out of a ball from its centre
+  // Share of the ball's radius: at the centre of a ball the way out has no direction.
+  constexpr double kCentred = 0.999;
   const PointDepth found = leastDepth(body, p);
   if (!(found.depth > least && found.depth < kCentred * body.radii().rho)) return {};
   return found;
@@ -130,15 +134,16 @@ std::optional<PointDepth> pointDepthBetween(const StpBv& body, const Vector3d& p
 }
 
 double capHeight(const StpBv& body) {
-  constexpr double kNone = kInfinity, kSafe = 1.0 + 1e-9;  // beyond rounding
+  constexpr double kNone = kInfinity, kSafe = 1.0 + 1e-9;  // more than rounding
   const double rho = body.radii().rho;
   if (!(body.innerRadius() > 0.0)) return kNone;
   double edge = 0.0, face = 0.0;
   for (int e = 0; e < body.edgeCount(); ++e)
     edge = std::max(edge, sag(body.patch(body.edgePatch(e)), body.radii()));
   for (int f = 0; f < body.faceCount(); ++f) {
-    // Every point of the polygon is at least as far from the ball's centre as its lowest corner is high along
-    // any unit vector, here the mean of the corners' normals: rho times the cosine of the angle between.
+    // Take the heights over the ball's centre along any unit vector, here the mean of the corners' normals.
+    // Every point of the polygon is at least as far from the centre as the lowest corner is high. A corner's
+    // height is rho times the cosine of the angle between its normal and the mean.
     const StpBv::Ring& ring = body.faces()[static_cast<std::size_t>(f)];
     Vector3d mean(0, 0, 0);
     for (const int vertex : ring) mean += body.corner(f, vertex);

@@ -18,11 +18,11 @@
 namespace fcl_stpbv::detail {
 namespace {
 
-constexpr int kLeaf = 8;    // points a leaf: scanning eight costs about as much as one more level of boxes
-constexpr int kStack = 96;  // deeper than any balanced tree of 2^31 points needs
+constexpr int kLeaf = 8;    // points in a leaf: scanning eight costs about as much as one more level of boxes
+constexpr int kStack = 96;  // more entries than a balanced tree of 2^31 points needs
 
-// Rows: the directions in which points[begin, end) spread independently of each other; any three at right
-// angles where they are too large or too small to tell.
+// Rows: the principal axes of points[begin, end), along which the coordinates are uncorrelated. If the
+// coordinates are so large or so small that these cannot be computed, any three directions at right angles.
 template <class Point>
 Eigen::Matrix3d principalAxes(const Point& point, int begin, int end) {
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
@@ -87,8 +87,8 @@ PointTree::Highest PointTree::highest(const Eigen::Vector3d& anchor, const Eigen
   best.height = -kInfinity;
   if (nodes_.empty()) return best;
 
-  // In any three directions at right angles the height is a sum over the coordinates of convex functions, so
-  // over a box each takes its largest value at one of its two ends.
+  // In any three directions at right angles the height is a sum of convex functions, one of each coordinate.
+  // So over a box each of these functions takes its largest value at one of its two ends.
   const Eigen::Vector3d from = anchor - centre_;
   const double size = std::sqrt(nodes_[0].far2) + from.norm();
   const double boxRounding =
@@ -124,7 +124,8 @@ PointTree::Highest PointTree::highest(const Eigen::Vector3d& anchor, const Eigen
   stack[static_cast<std::size_t>(waiting++)] = {bound(nodes_[0]), 0};
   while (waiting > 0) {
     const Waiting top = stack[static_cast<std::size_t>(--waiting)];
-    // Bound and height may differ by rounding: a node is left out only when it is lower by more than that.
+    // Bound and height may differ by rounding. So a node is left out only if its bound is lower by more than
+    // that.
     const double wanted = best.height > tolerance ? best.height : -2 * tolerance;
     if (top.bound < wanted) continue;
     const Node& node = nodes_[static_cast<std::size_t>(top.node)];
@@ -144,7 +145,7 @@ PointTree::Highest PointTree::highest(const Eigen::Vector3d& anchor, const Eigen
     Waiting a{bound(nodes_[static_cast<std::size_t>(top.node) + 1]), top.node + 1};
     Waiting b{bound(nodes_[static_cast<std::size_t>(node.right)]), node.right};
     if (a.bound > b.bound) std::swap(a, b);
-    stack[static_cast<std::size_t>(waiting++)] = a;  // the higher one is visited first
+    stack[static_cast<std::size_t>(waiting++)] = a;  // the child with the higher bound is visited first
     stack[static_cast<std::size_t>(waiting++)] = b;
   }
   return best;

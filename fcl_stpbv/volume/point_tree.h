@@ -1,5 +1,5 @@
-// A tree of oriented boxes over a cloud: which point rises highest over a
-// ball, and which points are near another.
+// A tree of oriented boxes over a cloud. It finds the point that rises highest over a ball, and the points
+// near a given place.
 #pragma once
 
 #include <Eigen/Core>
@@ -17,17 +17,18 @@ class PointTree {
     double height = 0;
   };
 
-  /// The point with the largest height `curvature |q|^2 / 2 + normal.q`, `q = p - anchor`, over
-  /// a ball's surface. Where that is at most `tolerance`, `near` gets all points higher than
-  /// `-tolerance`; else `near` is meaningless.
+  /// The point with the largest height over a ball's surface, `curvature |q|^2 / 2 + normal.q` with `q = p -
+  /// anchor`. If that height is at most `tolerance`, `near` receives all points higher than `-tolerance`.
+  /// Otherwise the content of `near` is meaningless.
   Highest highest(const Eigen::Vector3d& anchor, const Eigen::Vector3d& normal, double curvature,
                   double tolerance, std::vector<int>* near) const;
 
-  /// The same among the few points that the tree keeps beside point `beside`; a guess where to look.
+  /// highest() among the few points that the tree stores next to the point `beside`. The result is a guess
+  /// where to look.
   Highest highestBeside(int beside, const Eigen::Vector3d& anchor, const Eigen::Vector3d& normal,
                         double curvature) const;
 
-  /// The points closer to `centre` than `radius`: all, or the first `atMost` met.
+  /// All points within `radius` of `centre`. The search ends when at least `atMost` points are found.
   void within(const Eigen::Vector3d& centre, double radius, std::vector<int>* found,
               std::size_t atMost = std::numeric_limits<std::size_t>::max()) const;
 
@@ -38,10 +39,10 @@ class PointTree {
  private:
   struct Node {
     Eigen::Matrix3d axes;       // rows: the box's directions
-    Eigen::Vector3d low, high;  // of its points in these, from centre_
-    double far2;                // of its points, the largest squared distance from centre_
+    Eigen::Vector3d low, high;  // bounds of the node's points along the axes, relative to centre_
+    double far2;                // largest squared distance of the node's points from centre_
     int begin, end;             // range of order_
-    int right;                  // second child; the first one follows its parent; -1 for a leaf
+    int right;  // index of the second child, -1 for a leaf; the first child follows its parent
   };
   int makeNode(int begin, int end);
 
@@ -49,7 +50,7 @@ class PointTree {
   Eigen::Vector3d centre_{0, 0, 0};  // of the smallest ball around the points
   std::vector<int> order_;
   std::vector<Eigen::Vector3d> sorted_;  // points in the order of order_
-  std::vector<int> place_;               // where in order_ each point stands
+  std::vector<int> place_;               // place of each point in order_
   std::vector<Node> nodes_;
   std::vector<char> removed_;
 };

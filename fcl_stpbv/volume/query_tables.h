@@ -16,17 +16,19 @@ struct QueryTables {
   /// the points only approximately (surface_check.h). The builder sets it after its check of the volume,
   /// before it hands the volume out.
   mutable double supportError = 0;
-  PatchTable patches;  ///< with the boundaries of their regions of normals
+  PatchTable patches;  ///< the patches, with the boundaries of their regions of normals
   /// Some faces near the centre, nearest first, in different directions; each is the nearest one around its
   /// direction. The shortest way out of the body is likely along one of their normals.
   std::vector<int> shallowFaces;
-  double capHeight = std::numeric_limits<double>::infinity();  ///< point_depth.h (m)
+  double capHeight = std::numeric_limits<double>::infinity();  ///< see capHeight() in point_depth.h (m)
   BodyBox box;
-  VertexGraph graph;          ///< the way from vertex to vertex
-  DirectionTable patchNear;   ///< the patch that owns the middle of each cell of directions
-  DirectionTable vertexNear;  ///< the vertex furthest along that middle
+  /// The edges at each vertex, for climbing from vertex to vertex.
+  VertexGraph graph;
+  /// For each cell of directions, the patch whose region contains the cell's middle.
+  DirectionTable patchNear;
+  DirectionTable vertexNear;  ///< for each cell of directions, the vertex furthest along the cell's middle
 
-  /// Memory they hold, in bytes.
+  /// Memory of all tables, in bytes.
   std::size_t memory() const {
     return sizeof *this + patches.memory() + shallowFaces.capacity() * sizeof(int) + graph.memory() +
            patchNear.memory() + vertexNear.memory();

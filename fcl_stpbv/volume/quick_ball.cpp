@@ -2,15 +2,16 @@
 // circumcentre from the anchor and kappa the curvature, the normal at the anchor is -kappa O + sqrt(1 -
 // kappa^2 O^2) N/|N|, and a point at q from the anchor is q.(kappa/2 q + normal) high.
 //
-// Rounding, in units e = 2^-53, with s the sine of the angle between u and v and w the root above:
-// - N is off by at most 10 e / s of its length: its terms are products of lengths |u||v|.
-// - O = ((u^2 v - v^2 u) x N) / (2 N^2) is off with N, in all by 40 e / s of kappa O <= 1
-//   after the division, and by the roundings of its two terms, 10 e kappa (|u| + |v|) / (2
-//   s) <= 20 e / s since u and v are chords.
-// - The root of 1 - kappa^2 O^2 is off by the error of kappa O over w, N/|N| by 20 e / s.
-// So the normal is off by at most (60 (1 + 1/w) + 20) e / s, and a height by that and 10 e for its own sums,
-// by |q|. That the chords are at most 2/kappa holds for q too, as the ball is larger than the smallest one
-// around the cloud.
+// Bounds on the rounding errors, in units e = 2^-53. Let s be the sine of the angle between u and v, and w
+// the root above.
+// - N is off by at most 10 e / s of its length, because its terms are products of the lengths |u||v|.
+// - O = ((u^2 v - v^2 u) x N) / (2 N^2) is off because N is: after the division by 40 e / s of kappa O <= 1.
+//   It is also off by the roundings of its two terms, 10 e kappa (|u| + |v|) / (2 s) <= 20 e / s, because u
+//   and v are chords.
+// - The root of 1 - kappa^2 O^2 is off by the error of kappa O over w, and N/|N| by 20 e / s.
+// So the normal is off by at most (60 (1 + 1/w) + 20) e / s. A height is off by |q| times the sum of this and
+// 10 e, which is for the height's own sums. Chords are at most 2/kappa long. This holds for q, too, because
+// the ball is larger than the smallest one around the cloud.
 #include "fcl_stpbv/volume/quick_ball.h"
 
 #include <Eigen/Geometry>
@@ -26,7 +27,7 @@ using Eigen::Vector3d;
 
 QuickBall::QuickBall(const Vector3d& a, const Vector3d& b, const Vector3d& c, double radius)
     : touched_{&a, &b, &c}, radius_(radius) {
-  // The anchor is where the angle, and so s, is largest: opposite the longest side.
+  // The anchor is the corner with the largest angle, opposite the longest side: there s is largest.
   const double ab = (b - a).squaredNorm(), bc = (c - b).squaredNorm(), ca = (a - c).squaredNorm();
   if (ab > bc && ab > ca)
     touched_ = {&c, &a, &b};
@@ -39,7 +40,7 @@ QuickBall::QuickBall(const Vector3d& a, const Vector3d& b, const Vector3d& c, do
   const double u2 = u.squaredNorm(), v2 = v.squaredNorm(), n2 = n.squaredNorm();
   const Vector3d o = curvature / (2 * n2) * (u2 * v.cross(n) + v2 * n.cross(u));
   const double rest = 1 - o.squaredNorm(), sine = std::sqrt(n2 / (u2 * v2));
-  constexpr double kThin = 1e-6, kSteep = 1e-4;  // below, the errors' squares would count
+  constexpr double kThin = 1e-6, kSteep = 1e-4;  // below these the squares of the errors would count
   if (!(sine > kThin && rest > kSteep)) {
     error_ = kInfinity;
     valid_ = exact().valid();
@@ -49,7 +50,7 @@ QuickBall::QuickBall(const Vector3d& a, const Vector3d& b, const Vector3d& c, do
   const double root = std::sqrt(rest);
   normal_ = root / std::sqrt(n2) * n - o;
   constexpr double kUnit = 0.5 * std::numeric_limits<double>::epsilon();
-  error_ = 2 * kUnit * ((60 * (1 + 1 / root) + 20) / sine + 10);  // and as much again
+  error_ = 2 * kUnit * ((60 * (1 + 1 / root) + 20) / sine + 10);  // twice the bound, for safety
 }
 
 TouchingBall& QuickBall::exact() {

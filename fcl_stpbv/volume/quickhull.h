@@ -18,21 +18,22 @@
 
 namespace fcl_stpbv::detail {
 
-/// `Surface` is made of three points, counter-clockwise seen from outside, and a length (m). It has
-/// `valid()`, false where the points make none, and `side(p, &height)`: 1 where p is outside, which has it
-/// enter, else 0 or -1, and p's height (m). Its points stay where they are as long as the hull lives.
+/// `Surface` is made from three points, counter-clockwise seen from outside, and a length (m). Its `valid()`
+/// is false if the points make no surface. Its `side(p, &height)` returns 1 if p is outside, so that p enters
+/// the hull, otherwise 0 or -1. It also sets p's height (m). The three points stay where they are as long as
+/// the hull lives.
 template <class Surface>
 class Quickhull {
  public:
   struct Face {
     std::array<int, 3> corner;  // counter-clockwise seen from outside
-    std::array<int, 3> beside;  // the face over the side from that corner on
+    std::array<int, 3> beside;  // beside[k]: the face over the side that starts at corner[k]
     Surface surface;
-    int first = kNone;     // of the points outside that it lists
-    int farthest = kNone;  // among them
-    double height = 0;     // of that one
-    int round = 0;         // the last round in which its side of a point was tested
-    bool sees = false;     // the result: the point is outside
+    int first = kNone;     // the first point in the face's list of points outside
+    int farthest = kNone;  // the farthest point in that list
+    double height = 0;     // of the point `farthest`
+    int round = 0;         // the last round in which a point was tested against the surface
+    bool sees = false;     // result of that test: the point is outside
     bool isGone = false;
   };
 
@@ -47,10 +48,10 @@ class Quickhull {
   /// False if the points are coplanar or a rim is not a single loop; another method is then needed.
   bool make();
 
-  /// Those that are not gone are the hull's, once made.
+  /// The faces. After make() those that are not gone form the hull.
   std::vector<Face>& faces() { return faces_; }
   const std::vector<Face>& faces() const { return faces_; }
-  /// A corner's point, and its index in the cloud.
+  /// at(): a corner's point. original(): the corner's index in the cloud.
   const Eigen::Vector3d& at(int corner) const { return points_[static_cast<std::size_t>(corner)]; }
   int original(int corner) const { return order_[static_cast<std::size_t>(corner)]; }
   /// Number of point-side tests, a measure of the work.
@@ -60,7 +61,8 @@ class Quickhull {
   using Vector3d = Eigen::Vector3d;
   static constexpr int kNone = -1;
   struct Rim {
-    int from, to, beyond, within;  // a side's ends, the face that stays and the one that goes
+    // The ends of a side, the face beyond it, which stays, and the face within, which goes.
+    int from, to, beyond, within;
   };
 
   Face& face(int f) { return faces_[static_cast<std::size_t>(f)]; }
@@ -77,9 +79,9 @@ class Quickhull {
   void list(int point, std::vector<int>& among);
 
   double length_;
-  std::vector<int> order_;        // the cloud's indices in the order of points_
-  std::vector<Vector3d> points_;  // neighbours in space are near each other
-  std::vector<int> next_;         // in the list that holds the point
+  std::vector<int> order_;        // the index in the cloud of each of points_
+  std::vector<Vector3d> points_;  // sorted so that neighbours in space are near each other
+  std::vector<int> next_;         // for each point: the next one in the same list
   std::vector<Face> faces_;
   std::vector<int> free_, waiting_, visible_, fresh_, newFrom_;
   std::vector<Rim> rim_;
@@ -140,11 +142,12 @@ bool Quickhull<Surface>::start() {
   const Vector3d up = along.cross(at(c) - at(a));
   const int d = farthest([&](const Vector3d& p) { return std::abs(up.dot(p - at(a))); });
   const double rise = up.dot(at(d) - at(a));
-  // Flatter than this, the side of the first faces' planes is rounding.
+  // If the cloud is flatter than this, only rounding decides on which side of the first faces' planes a point
+  // lies.
   constexpr double kFlat = 1e-9;
   if (!(std::abs(rise) > kFlat * along.norm() * up.norm())) return false;
   if (rise > 0) std::swap(b, c);
-  // d is below a, b, c.
+  // Now d is below the plane of a, b, c.
   const std::array<int, 4> first{addFace(a, b, c), addFace(a, d, b), addFace(b, d, c), addFace(c, d, a)};
   face(first[0]).beside = {first[1], first[2], first[3]};
   face(first[1]).beside = {first[3], first[2], first[0]};
@@ -185,8 +188,8 @@ bool Quickhull<Surface>::findRim(int p, int f) {
   return rim_.size() >= 3;
 }
 
-// Whether the rim is one loop that meets no vertex twice; newFrom_ then leads
-// from each vertex to its side's new face.
+// Whether the rim is one loop that meets no vertex twice. If it is, newFrom_ leads from each vertex to the
+// new face over the side that starts there.
 template <class Surface>
 bool Quickhull<Surface>::isLoop() {
   bool isSimple = true;

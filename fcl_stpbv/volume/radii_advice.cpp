@@ -21,7 +21,8 @@ namespace {
 using namespace detail;
 using Points = std::vector<Eigen::Vector3d>;
 
-// Nothing on a robot is smaller or larger (m, s, m/s, rad/s, m/s^2); products of a few stay finite.
+// Range of the task's numbers (m, s, m/s, rad/s, m/s^2). Nothing on a robot is outside it, and the products
+// of a few such numbers are finite.
 constexpr double kLeast = 1e-9, kGreatest = 1e9;
 
 void check(const RadiiTask& task) {
@@ -37,7 +38,7 @@ void check(const RadiiTask& task) {
 template <class IsGood>
 double lastGood(double good, double bad, const IsGood& isGood) {
   if (isGood(bad)) return bad;
-  for (int round = 0; round < 100; ++round) {  // beyond the bits of a double
+  for (int round = 0; round < 100; ++round) {  // more rounds than a double has bits
     const double middle = 0.5 * (good + bad);
     (isGood(middle) ? good : bad) = middle;
   }
@@ -49,7 +50,7 @@ ContactAcceleration accelerationOf(const RadiiTask& task, double r, double R) {
   return contactAcceleration(task.bothRound ? own : kFlatRadii, own, task.distance, task.speed, task.turning);
 }
 
-/// The radii of the smallest volume with at most this acceleration; r is infinite where none is enough.
+/// The radii of the smallest volume with at most this acceleration; r is infinite if no r is large enough.
 StpBvOptions radiiFor(const RadiiTask& task, double acceleration) {
   const auto most = [&](double r) { return accelerationOf(task, r, kLargestR).most <= acceleration; };
   const auto least = [&](double R) { return -accelerationOf(task, 0, R).least <= acceleration; };
@@ -62,7 +63,7 @@ class Adviser {
       : points_(points),
         task_(task),
         missed_(0.5 * std::pow(task.turning * task.period, 2)),
-        smallestR_(StpBv::smallestR(points, 0)),  // refuses points without a volume
+        smallestR_(StpBv::smallestR(points, 0)),  // throws an Error for points without a volume
 
         hull_(points) {}
 
@@ -83,13 +84,15 @@ class Adviser {
   /// R a lot: if all clearance is used for r, R is tens of metres, and a controlled robot's joints have to
   /// follow every tilt.
   static constexpr double kSpare = 1.2;
-  // The first step that keeps the clearance is found, then the place between it and the last to a thousandth.
+  // leastKept() raises the acceleration by the factor kStep until the clearance is kept. Then it bisects the
+  // last step in kRounds rounds, to a thousandth. kWithin is the relative accuracy of R.
   static constexpr double kStep = 2;
   static constexpr int kRounds = 10;
   static constexpr double kWithin = 1e-3;
-  static constexpr double kOfAPoint = 1e-9;  // m, the least R of a single point, which has no smallest one
+  static constexpr double kOfAPoint = 1e-9;  // m; the least R of a single point, whose smallest R is 0
 
-  /// The least acceleration of all radii that keep the clearance, where the task's own is below that.
+  /// The least acceleration whose radii keep the clearance, if the task's own acceleration is too low for
+  /// that.
   double leastKept() const {
     double low = task_.acceleration, high = low * kStep;
     for (; !keeps(with(high)); high *= kStep) {
@@ -107,12 +110,12 @@ class Adviser {
   static double lost(const RadiiAdvice& advice) { return advice.overCover + advice.perPeriod; }
   bool keeps(const RadiiAdvice& advice) const { return lost(advice) <= task_.clearance; }
 
-  /// All R above it have a volume, and none of a robot is smaller.
+  /// Every R above this one has a volume, and no R of a robot is smaller.
   double leastR(double r, double largest) const {
     return std::max(smallestR_ + r, std::min(kOfAPoint, largest));
   }
 
-  /// Spends what is left of the clearance on a smaller R: the witness points then slide less.
+  /// Uses the rest of the clearance for a smaller R, because the witness points then slide less.
   RadiiAdvice rounder(const RadiiAdvice& asked) const {
     const double r = asked.radii.r;
     double low = leastR(r, asked.radii.R), high = asked.radii.R;
@@ -167,8 +170,8 @@ class Adviser {
 
   const Points& points_;
   const RadiiTask& task_;
-  double missed_;     // of R, how far d may fall below a row that is linear for a period
-  double smallestR_;  // without a margin (m)
+  double missed_;     // share of R: how far d may fall below a constraint that is linear for a period
+  double smallestR_;  // the smallest R without a margin (m)
   CoveredHull hull_;
 };
 

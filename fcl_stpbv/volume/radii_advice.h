@@ -20,8 +20,8 @@ struct ContactAcceleration {
   double least;  ///< lower bound, not above 0
   double most;   ///< upper bound, not below 0
 
-  /// The larger of both.
-  double size() const { return std::max(most, -least); }  // in this order no -0
+  /// The larger of `most` and `-least`.
+  double size() const { return std::max(most, -least); }  // this order of the arguments avoids -0
 };
 
 /// The distance d of two bodies has the second time derivative d'' = n . a + c. Here n is the normal, and a

@@ -44,12 +44,13 @@ class Reducer {
   }
 
  private:
-  // How far a point sticks out of the margin.
+  // How far a point sticks out of the margin (m): its height over the surface that lies `options_.r` further
+  // in.
   double sticksOut(const StpBv& volume, const Vector3d& p) const {
     return signedDistance(volume, p) + options_.r;
   }
 
-  // The same of all points; vertices are as deep as the volume's own r.
+  // The same for all points of the hull. A vertex lies below the surface by the volume's own r.
   std::vector<double> sticksOut(const StpBv& volume) const {
     const auto before = [](const Vector3d& a, const Vector3d& b) {
       return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3);
@@ -92,8 +93,8 @@ class Reducer {
     return nullptr;
   }
 
-  // The same for some of the points. The over-cover is at least r, so no r above the limit is tried. Most
-  // failures are at the point that was just removed, if there is one.
+  // cover() for some of the points. The over-cover is at least r, so no r above the limit is tried. Most
+  // failures are at the point that was just removed (`dropped`), if there is one.
   StpBv::Ptr coverFrom(const Cloud& points, const Vector3d* dropped = nullptr) const {
     return cover(points, budget_, dropped);
   }
@@ -136,7 +137,7 @@ class Reducer {
       std::iota(order.begin(), order.end(), std::size_t{0});
       std::sort(order.begin(), order.end(),
                 [&](std::size_t i, std::size_t j) { return heights[i] > heights[j]; });
-      // What sticks out is added to r; where that alone is over the budget there is no need to try.
+      // The largest height is added to r. If it alone exceeds what the limit leaves, there is no need to try.
       if (heights[order[0]] <= budget_ - options_.r)
         if (const StpBv::Ptr covering = coverFrom(chosen)) return covering;
       const std::size_t more = 1 + chosen.size() / 16;

@@ -1,5 +1,5 @@
-// The regions of normals as areas bounded by arcs: a face's between its sides' planes, a vertex's between its
-// edges' cones, each with a centre for drawing and integrating.
+// The regions of normals as areas bounded by arcs. A face's region is bounded by its sides' planes, a
+// vertex's region by its edges' cones. Each region has a centre for drawing and integrating.
 #include "fcl_stpbv/volume/regions.h"
 
 #include <Eigen/Geometry>
@@ -15,8 +15,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-// The mean of the boundary, but of a region like half the sphere, whose boundary has none, the mean of the
-// region: it is convex.
+// The centre is the mean of the boundary. If the region is like half the sphere, its boundary has no clear
+// mean, and the centre is the mean of the region. This works because the region is convex.
 void setCentre(Region* region) {
   constexpr double kTellsNothing = 0.1;
   Vector3d sum = Vector3d::Zero();
@@ -76,20 +76,22 @@ std::vector<Region> regions(const StpBv& volume) {
     const Vector3d z = Vector3d::UnitZ();
     return {{0, z, {{Vector3d::UnitX(), z, kTwoPi}}}, {0, -z, {{Vector3d::UnitX(), -z, kTwoPi}}}};
   }
-  std::map<std::pair<int, int>, int> edgeFrom;  // of a face and a vertex
+  // Key: a face and the vertex where the edge starts in the face's ring.
+  std::map<std::pair<int, int>, int> edgeFrom;
   for (int e = 0; e < volume.edgeCount(); ++e) {
     const StpBv::Edge& edge = volume.edges()[static_cast<std::size_t>(e)];
     const Arc middle = edgeArc(volume, e);
     const double sine =
         0.5 * (at(volume, edge.vertex[1]) - at(volume, edge.vertex[0])).norm() / volume.radii().rho;
     const double cosine = volume.patch(volume.edgePatch(e)).kappa / volume.radii().rho;
-    // The second vertex lies ahead of the edge's turn on its left, the first one on its right.
+    // Seen in the direction of the edge's turn, the second vertex lies on the left, the first one on the
+    // right.
     const Vector3d u = middle.axis;
     all[static_cast<std::size_t>(edge.vertex[1])].boundary.push_back(
         {cosine * middle.start + sine * u, u, edge.turn, e});
     all[static_cast<std::size_t>(edge.vertex[0])].boundary.push_back(
         {cosine * middle.at(1) - sine * u, -u, edge.turn, e});
-    // Round face[0] the edge runs from its first vertex, round face[1] from its second.
+    // In the ring of face[0] the edge runs from its first vertex, in the ring of face[1] from its second.
     for (const std::size_t side : {0u, 1u}) edgeFrom[{edge.face[side], edge.vertex[side]}] = e;
   }
   for (int f = 0; f < volume.faceCount(); ++f) {
@@ -98,8 +100,8 @@ std::vector<Region> regions(const StpBv& volume) {
     for (std::size_t k = 0; k < ring.size(); ++k) {
       const int i = ring[k], j = ring[(k + 1) % ring.size()];
       const Vector3d from = volume.corner(f, i), to = volume.corner(f, j);
-      // Both normals are offsets of the two points from the ball's centre, so their plane holds the edge. The
-      // points' difference keeps the digits that the normals' difference has lost where R is large.
+      // Both normals are offsets of the two points from the ball's centre, so their plane contains the edge.
+      // The difference of the points keeps the digits that the difference of the normals loses if R is large.
       const Vector3d across = from.cross(at(volume, j) - at(volume, i));
       const double turn = std::atan2(across.norm() / volume.radii().rho, from.dot(to));
       region.boundary.push_back({from, across.normalized(), turn, edgeFrom.at({f, i})});

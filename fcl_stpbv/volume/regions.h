@@ -16,8 +16,9 @@ inline const Eigen::Vector3d& at(const StpBv& volume, int vertex) {
 struct Arc {
   Eigen::Vector3d start, axis;
   double turn;
-  int edge = -1;  ///< whose region of normals it bounds; -1 for half a sphere, which has no edge
-  Eigen::Vector3d at(double part) const;  ///< part in [0, 1]
+  /// The edge whose region of normals the arc bounds; -1 for half a sphere, which has no edge.
+  int edge = -1;
+  Eigen::Vector3d at(double part) const;  ///< the point after a share `part` of the turn, 0 to 1
 };
 
 /// A region with its counter-clockwise boundary, and a centre from which the region is star-shaped.
@@ -33,7 +34,8 @@ struct Region {
 /// Integral of the normals over a region: half the integral of n x dn along its boundary.
 Eigen::Vector3d vectorArea(const Region& region);
 
-/// Regions of all vertices, then of all faces (paper III.D). A single point's sphere comes as two halves.
+/// Regions of all vertices, then of all faces (paper III.D). The sphere of a single point is given as two
+/// halves.
 std::vector<Region> regions(const StpBv& volume);
 
 /// The smallest kappa / rho of all edges, the cosine of the largest lean of a normal; 1 without edges. Near
@@ -41,8 +43,8 @@ std::vector<Region> regions(const StpBv& volume);
 /// larger by the inverse of this cosine.
 double leastCosine(const StpBv& volume);
 
-/// The arc of an edge's normals halfway between its ends, from its first face to
-/// its second; a spindle's is a circle.
+/// The arc of an edge's normals halfway between its ends, from its first face to its second. A spindle's arc
+/// is a full circle.
 Arc edgeArc(const StpBv& volume, int edge);
 
 }  // namespace fcl_stpbv::detail

@@ -36,7 +36,7 @@ class Roller {
 
   void roll();
   std::vector<Ring> faces;
-  std::vector<int> loneVertices;  // one or two points that carry no face
+  std::vector<int> loneVertices;  // one or two points if the cloud has no face
 
  private:
   int addFace(Ring ring);
@@ -46,9 +46,10 @@ class Roller {
 
   RollingCloud cloud_;
   std::vector<TouchingBall> balls_;
-  // Faces in lists by their smallest vertex, with which their rings start.
+  // Lists of faces, one list for each vertex that is the smallest of its ring. Rings start with this vertex.
   std::vector<int> faceAt_, nextFace_;
-  std::vector<std::vector<char>> matched_;  // per face and corner: the other side is known
+  // For each face and corner: whether the face on the other side is known.
+  std::vector<std::vector<char>> matched_;
   struct Open {
     int face, corner;
   };
@@ -94,7 +95,7 @@ void Roller::roll() {
     const int a = ring[k], b = ring[(k + 1) % ring.size()], c = ring[(k + 2) % ring.size()];
 
     const bool lone = isLone(cloud_, a, b);
-    int face = lone ? open_.face(b, a) : -1;  // only one edge can join them there
+    int face = lone ? open_.face(b, a) : -1;  // over a lone edge only one edge can join a and b
     if (face < 0) {
       const Vector3d u = (cloud_.at(b) - cloud_.at(a)).normalized(), m = normalAt(h.face, a);
       face = addFace(pivot(cloud_, a, b, (m - m.dot(u) * u).normalized(), c, lone));
@@ -143,7 +144,7 @@ RolledHull hullOf(const std::vector<Vector3d>& points, std::vector<Ring> faces, 
 /// The two end points of a cloud whose points are on one line up to rounding. A face that rounding makes
 /// there could miss an end point. Empty if some point is off the line.
 std::vector<int> needleEnds(const std::vector<Vector3d>& points) {
-  constexpr double kRounding = 3e-14;  // of the length
+  constexpr double kRounding = 3e-14;  // share of the length
   const auto farthestFrom = [&](int from) {
     int best = from;
     double most = 0;
@@ -189,11 +190,11 @@ RolledHull flatHull(const std::vector<Vector3d>& points) {
   try {
     RolledHull quick = quickBallHull(points, radius);
     if (!quick.faces.empty()) return quick;
-  } catch (const Error&) {  // its faces do not close
+  } catch (const Error&) {  // quickhull's faces do not close
   }
   try {
     return rollBall(points, radius);
-  } catch (const Error&) {  // nor do those of the roll: many points on the sides of one polygon
+  } catch (const Error&) {  // nor do the rolling ball's: many points on the sides of one polygon
     const Ring front = flatOutline(points);
     if (front.empty()) throw;
     return hullOf(points, {front, Ring(front.rbegin(), front.rend())}, {}, radius);

@@ -7,27 +7,27 @@
 
 namespace fcl_stpbv::detail {
 
-/// What a ball rolled all the way round a cloud has touched. Indices are into the cloud.
+/// Everything that a ball touches while it is rolled all the way round a cloud. Indices are into the cloud.
 struct RolledHull {
   std::vector<int> vertices;            ///< touched points, ascending
   std::vector<std::vector<int>> faces;  ///< rings of touched points, counter-clockwise seen from outside
 };
 
 /// Hull of the cloud under a ball of finite `radius` that touches it from the inner side: the ball hull.
-/// Points of one ball to rounding share one k-gon face, points closer together than rounding count as one.
-/// Two points, or collinear ones, give no face.
+/// Points that lie on one ball up to rounding share one k-gon face. Points closer together than rounding
+/// count as one. Two points, or collinear points, give no face.
 ///
-/// Works on any cloud that is not empty, finite, and has a minimum enclosing ball smaller than `radius`.
-/// @throws Error where rounding defeats it.
+/// Works on any cloud that is not empty, is finite, and has a minimum enclosing ball smaller than `radius`.
+/// @throws Error if rounding errors prevent it.
 RolledHull rollBall(const std::vector<Eigen::Vector3d>& points, double radius);
 
-/// The convex hull, by quickhull (ball_quickhull.h) where that suits the cloud. A flat cloud gives two faces
+/// The convex hull, by quickhull (ball_quickhull.h) if that suits the cloud. A flat cloud gives two faces
 /// back to back.
-/// @throws Error likewise.
+/// @throws Error as rollBall() does.
 RolledHull convexHull(const std::vector<Eigen::Vector3d>& points);
 
-/// The same, but it makes faces even if the points are off a common line only by rounding.
-/// @throws Error likewise.
+/// convexHull(), but it makes faces even if the points are off a common line only by rounding.
+/// @throws Error as rollBall() does.
 RolledHull flatHull(const std::vector<Eigen::Vector3d>& points);
 
 /// The same hull as rollBall(), but directly from the definition of faces: slow and reliable. For at most
@@ -35,8 +35,8 @@ RolledHull flatHull(const std::vector<Eigen::Vector3d>& points);
 /// no face.
 RolledHull hullByDefinition(const std::vector<Eigen::Vector3d>& points, double radius);
 
-/// The same by quickhull (ball_quickhull.h), much faster; without faces where that does not suit the
-/// cloud. The caller has to check what comes back (surface_check.h).
+/// The hull of rollBall() by quickhull (ball_quickhull.h), which is much faster. It has no faces if quickhull
+/// does not suit the cloud. The caller has to check the result (surface_check.h).
 RolledHull quickBallHull(const std::vector<Eigen::Vector3d>& points, double radius);
 
 /// Radius of a ball so large that its bulge over the cloud is below the rounding of the coordinates.

@@ -28,12 +28,12 @@ class RollingCloud {
   bool claim(const Ring& ring);
 
   const std::vector<Eigen::Vector3d>& points;
-  double radius, curvature;  ///< the ball's
+  double radius, curvature;  ///< of the ball
   double extent;             ///< diagonal of the bounding box (m)
   PointTree tree;
 
  private:
-  double same_;  // points closer together count as one (m)
+  double same_;  // points closer together than this count as one (m)
   std::vector<char> isVertex_;
 };
 

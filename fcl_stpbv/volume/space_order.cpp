@@ -8,9 +8,9 @@
 namespace fcl_stpbv::detail {
 namespace {
 
-constexpr int kBits = 10;  // a coordinate: a thousand cells along each
+constexpr int kBits = 10;  // for each coordinate: about a thousand cells along each axis
 
-// The lowest ten bits of x, two zeros after each.
+// The lowest ten bits of x, with two zeros after each.
 std::uint32_t spread(std::uint32_t x) {
   x = (x | x << 16) & 0x030000ffu;
   x = (x | x << 8) & 0x0300f00fu;
@@ -24,7 +24,8 @@ std::vector<int> spaceOrder(const std::vector<Eigen::Vector3d>& points) {
   if (points.empty()) return {};
   Eigen::Vector3d low = points[0], high = points[0];
   for (const Eigen::Vector3d& p : points) low = low.cwiseMin(p), high = high.cwiseMax(p);
-  // One scale for all: cells are cubes. A cloud of no size, or one too large for a double, is one cell.
+  // The scale is the same for all axes, so cells are cubes. If a cloud has no size or is too large for a
+  // double, all of it is one cell.
   const double size = (high - low).maxCoeff();
   const double cells = (1 << kBits) - 1, scale = size > 0 && cells / size > 0 ? cells / size : 0;
   std::vector<std::pair<std::uint32_t, int>> keys;

@@ -6,7 +6,8 @@
 
 namespace fcl_stpbv::detail {
 
-/// Indices of the points along Morton's curve through their bounding box; of equal points the first one's.
+/// Indices of the points along Morton's curve through their bounding box. Of several equal points only the
+/// first one is included.
 std::vector<int> spaceOrder(const std::vector<Eigen::Vector3d>& points);
 
 }  // namespace fcl_stpbv::detail

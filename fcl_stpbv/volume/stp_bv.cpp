@@ -31,7 +31,8 @@ using Eigen::Vector3d;
 
 std::string number(double value) { return formatted("%.9g", value); }
 
-// The shortest decimal of nine to 17 digits for which `holds` is true after it is read back.
+// The number as text that still fulfils `holds` when it is read again, with as few digits as possible but at
+// least nine.
 template <typename Holds>
 std::string number(double value, const Holds& holds) {
   std::string text;
@@ -42,8 +43,8 @@ std::string number(double value, const Holds& holds) {
   return text;
 }
 
-// The smallest usable R for a margin r and a smallest ball of this radius. Rounded up, so that the printed
-// decimal works too.
+// An R that works with the margin `r` if the points' smallest ball has this `radius`. It works as it is
+// printed, too.
 std::string usableR(double r, double radius) {
   double least = r + radius * (1 + 1e-9);
   while (least - r <= radius) least = std::nextafter(least, kInfinity);
@@ -52,7 +53,7 @@ std::string usableR(double r, double radius) {
 
 void checkInput(const std::vector<Vector3d>& points, const StpBvOptions& options) {
   if (points.empty()) throw Error("cannot build an STP-BV from no points: give at least one");
-  constexpr double kMost = 1e75;  // m: squares of its square are finite
+  constexpr double kMost = 1e75;  // m; the square of its square is finite
   for (std::size_t i = 0; i < points.size(); ++i) {
     requireFinite(i, points[i]);
     if (points[i].cwiseAbs().maxCoeff() > kMost)
@@ -71,7 +72,7 @@ void checkInput(const std::vector<Vector3d>& points, const StpBvOptions& options
 // of them from inside.
 void checkRadius(const std::vector<Vector3d>& points, const StpBvOptions& options) {
   const Ball ball = minimumEnclosingBall(points);
-  constexpr double kLink = 5.0;  // m: a larger link than any robot's is most likely in other units
+  constexpr double kLink = 5.0;  // m; a link that is larger than any robot's is most likely in other units
   const auto tooSmall = [&](double R) { return R - options.r <= ball.radius; };
   if (points.size() > 1 && tooSmall(options.R))
     throw Error("R = " + number(options.R, tooSmall) +
@@ -80,8 +81,8 @@ void checkRadius(const std::vector<Vector3d>& points, const StpBvOptions& option
                 (ball.radius > kLink ? " (a ball around them has a radius of " + number(ball.radius) +
                                            " m: are they in millimetres?)"
                                      : ""));
-  // A face of size s bulges by about s^2 / (8 R): past s / epsilon that is far below the rounding of its
-  // points. The smallest of clouds, a few roundings wide, still takes what any robot does.
+  // A face of size s bulges by about s^2 / (8 R). If R is above s / epsilon, this is far below the rounding
+  // of its points. Even the smallest clouds, only a few roundings wide, accept every R that a robot may use.
   constexpr double kAlways = 1e8;  // m
   const double largest =
       std::max(kAlways, (ball.radius + options.r) / std::numeric_limits<double>::epsilon());
@@ -133,7 +134,7 @@ StpBv::Ptr StpBv::build(const std::vector<Vector3d>& points, const StpBvOptions&
   try {
     RolledHull quick = quickBallHull(points, rho);
     if (!quick.faces.empty()) volume = built(std::move(quick));
-  } catch (const Error&) {  // its faces do not close: the cloud needs the roll
+  } catch (const Error&) {  // quickhull's faces do not close: the cloud needs the rolling ball
   }
   if (found != Soundness::exact) {
     const Ptr quick = volume;
@@ -201,7 +202,7 @@ StpBv::Ptr StpBv::assemble(std::vector<Vector3d> vertices, std::vector<Ring> fac
   if (volume->faceCount() > 0 && euler != 2)
     throw Error("the faces are not one closed surface: vertices - edges + faces is " + std::to_string(euler) +
                 ", not 2");
-  // Vertices that coincide pass all of that, and so does a surface that goes round twice.
+  // Vertices that coincide pass all these tests, and so does a surface that goes round twice.
   double off = 0;
   if (soundnessOf(*volume, volume->vertices_, {}, &off) == Soundness::broken)
     throw Error(
@@ -212,7 +213,7 @@ StpBv::Ptr StpBv::assemble(std::vector<Vector3d> vertices, std::vector<Ring> fac
 
 FCL_STPBV_VECTORIZED
 int StpBv::owner(const Vector3d& n, int hint) const {
-  if (!(n.squaredNorm() > 0)) return 0;  // zero or NaN: no direction, any patch
+  if (!(n.squaredNorm() > 0)) return 0;  // zero or NaN is no direction; any patch will do
   const Packed along = pack(n);
   int current = hint >= 0 ? hint : tables_->patchNear[n];
   const PatchTable& patches = tables_->patches;

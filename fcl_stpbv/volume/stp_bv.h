@@ -56,16 +56,16 @@ struct StpBvOptions {
 /// allocate.
 class StpBv {
  public:
-  using Ptr = std::shared_ptr<const StpBv>;  ///< shared, immutable
+  using Ptr = std::shared_ptr<const StpBv>;  ///< shared and immutable
   using Ring = std::vector<int>;             ///< a face's vertices, counter-clockwise seen from outside
 
   /// An edge: its two vertices and the faces on its two sides. On a spindle (two vertices, one edge patch all
   /// around) both faces are -1. The ring of `face[0]` contains the edge in the direction from `vertex[0]` to
   /// `vertex[1]`. `turn` is the angle about the edge from the normals of `face[0]` to those of `face[1]`. It
-  /// is below 2 pi, and 2 pi on a spindle. Two vertices may be joined by several edges.
+  /// is 2 pi on a spindle, otherwise below 2 pi. Two vertices may be joined by several edges.
   struct Edge {
     std::array<int, 2> vertex;  ///< the ends, indices into vertices()
-    std::array<int, 2> face;    ///< the faces beside it, -1: none
+    std::array<int, 2> face;    ///< the faces on its two sides, -1: none
     double turn;                ///< angle between its faces' normals (rad)
   };
 
@@ -107,7 +107,7 @@ class StpBv {
   /// edge whose normals turn by more than half a turn is split into several parts, so that each patch's
   /// region of normals is an intersection of half spaces.
   int patchCount() const { return firstFace_ + faceCount(); }
-  /// The patch of an edge, the first one where it has several parts.
+  /// The patch of an edge. If the edge has several parts, it is the patch of the first part.
   int edgePatch(int edge) const { return vertexCount() + edge; }
   /// The patch of a face. A vertex's patch has the vertex's number.
   int facePatch(int face) const { return firstFace_ + face; }
@@ -127,10 +127,10 @@ class StpBv {
   /// boundaries. It starts at the patch `hint`, or, if `hint` is negative, at a patch from a direction table.
   int owner(const Eigen::Vector3d& n, int hint = -1) const;
 
-  /// Support function h(n) = max over the body of x.n, for unit `n` (m); infinite where `n` is not finite.
+  /// Support function h(n) = max over the body of x.n, for unit `n` (m); infinite if `n` is not finite.
   double support(const Eigen::Vector3d& n, int hint = -1) const;
 
-  /// The surface point whose outward normal is the unit vector `n` (m); the centre where `n` is not finite.
+  /// The surface point whose outward normal is the unit vector `n` (m); the centre if `n` is not finite.
   Eigen::Vector3d surfacePoint(const Eigen::Vector3d& n, int hint = -1) const;
 
   /// A point well inside the body: the centre of the vertices' minimum enclosing ball (m).
@@ -169,7 +169,7 @@ class StpBv {
   std::vector<Edge> edges_;
   std::vector<Ring> faces_;
   std::vector<Eigen::Vector3d> faceNormals_;  // unit, at each ring's first vertex
-  int firstFace_ = 0;                         // the first face's patch
+  int firstFace_ = 0;                         // number of the first face's patch
   std::shared_ptr<const detail::QueryTables> tables_;
   Eigen::Vector3d centre_{0, 0, 0};
   double enclosingRadius_ = 0, innerRadius_ = 0, extent_ = 0;

@@ -27,7 +27,7 @@ using Eigen::Vector3d;
 // is not an intersection of half spaces. The rim of a flat plate turns by nearly half a turn and is not
 // split.
 constexpr double kWidestPart = kPi;
-constexpr double kPartTurn = 2.2;  // rad: well below half a turn, and at most three parts
+constexpr double kPartTurn = 2.2;  // rad; well below half a turn, and gives at most three parts
 
 std::size_t partsOf(const StpBv::Edge& edge) {
   return edge.face[0] < 0 || edge.turn <= kWidestPart
@@ -35,8 +35,9 @@ std::size_t partsOf(const StpBv::Edge& edge) {
              : static_cast<std::size_t>(std::ceil(edge.turn / kPartTurn));
 }
 
-/// An edge's patch with its two vertices past it. kappa = sqrt(rho^2 - l^2/4) (paper, Theorem 3.1), as a
-/// product and in long double: near the smallest R half of the digits cancel.
+/// An edge's patch with its two vertices as neighbours and without walls. kappa = sqrt(rho^2 - l^2/4) (paper,
+/// Theorem 3.1) is computed as a product and in long double, because near the smallest R half of the digits
+/// cancel.
 EdgeRecord withoutWalls(const Vector3d& first, const Vector3d& second, const StpBv::Edge& edge,
                         long double rho) {
   using Vector = Eigen::Matrix<long double, 3, 1>;
@@ -49,7 +50,7 @@ EdgeRecord withoutWalls(const Vector3d& first, const Vector3d& second, const Stp
   return {withFourth(pack(middle), kappa), withFourth(pack(u), sine), {wall, wall}};
 }
 
-/// A few faces near `centre`, the nearest first, their normals well apart.
+/// A few faces near `centre`, the nearest first, whose normals are well apart.
 std::vector<int> shallowFaces(const PatchTable& patches, const Vector3d& centre) {
   constexpr std::size_t kMost = 6;      // as many as a box has
   constexpr double kNeighbours = 0.87;  // cosine of 30 degrees
@@ -122,8 +123,8 @@ void StpBv::makeEdges() {
   }
 }
 
-/// The least distance from the centre to a triangle's plane: the triangles' surface is closed, so where all
-/// have the centre on their inner side a ball of that radius is inside it.
+/// The least distance from the centre to a triangle's plane. The triangles form a closed surface. So if all
+/// of them have the centre on their inner side, a ball of that radius is inside the surface.
 void StpBv::makeInnerRadius() {
   constexpr double kRounding = 16 * std::numeric_limits<double>::epsilon();
   const auto at = [&](int i) -> const Vector3d& { return vertices_[static_cast<std::size_t>(i)]; };
@@ -170,7 +171,7 @@ void StpBv::makePatches(QueryTables& tables) {
       record.wall[k].normal = {normal.x(), normal.y(), normal.z()};
       record.wall[1].past[k] = past;
     };
-    // Planes through the edge and the two faces' ball centres, their normals pointing out of the faces.
+    // Planes through the edge and the centre of each face's ball. Their normals point out of the faces.
     const Vector3d u = along.normalized();
     const Vector3d leave = along.cross(corner(edge.face[0], edge.vertex[0])).normalized();
     const Vector3d arrive = -along.cross(corner(edge.face[1], edge.vertex[0])).normalized();
@@ -204,7 +205,8 @@ void StpBv::makeDirectionTables(QueryTables& tables) const {
   int last = 0;
   tables.patchNear = DirectionTable(side, [&](const Vector3d& n) { return last = owner(n, last); });
   tables.vertexNear = DirectionTable(side, [&](const Vector3d& n) {
-    // From a vertex of the patch: itself, else over an edge's first boundary, which leads to an end.
+    // Starts from a vertex of the patch. Over the first boundary a face leads to an edge, and an edge to one
+    // of its ends.
     int corner = tables.patchNear[n];
     while (corner >= vertexCount()) corner = (*tables.patches.boundaries(corner).begin()).neighbour;
     return tables.graph.climb(corner, n.cast<float>());

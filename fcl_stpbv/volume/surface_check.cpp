@@ -1,21 +1,22 @@
 // Local tests that together prove that the volume is the ball hull of its vertices. The patches lie over
 // regions of normals, which are glued along their boundaries: an edge's region lies between the regions of
 // two faces and two vertices. The tests are that
-//   (a) each region is bounded by a loop that turns left at its corners and along its arcs, by 2 pi less the
-//       region's area in all, and that area is not negative;
+//   (a) each region is bounded by a loop that turns left at its corners and along its arcs; the turns add
+//       up to 2 pi minus the region's area, and this area is not negative;
 //   (b) neighbours lie on different sides of their boundary, and the angles around a corner add up to 2 pi;
 //   (c) vertices - edges + faces is 2.
-// By (a) a region is mapped one to one to the sphere of normals: a loop that turns left everywhere winds
-// round its inside once, or its turns would add up to 2 pi more and the area come out negative, unless it
-// bounded a quarter of the sphere twice over. With (b) the map is one to one near every normal, so the glued
-// surface covers the sphere evenly, and by (c) once. So the patches are the surface of a convex body that has
-// every normal once, with radii of curvature of at most R. By Blaschke's theorem, any ball of radius R that
-// touches the body, with the body on its inner side, contains it. So the body is the ball hull of its
-// vertices.
+// By (a) a region is mapped one to one to the sphere of normals. A loop that turns left everywhere winds
+// round its inside once. Otherwise its turns would add up to 2 pi more, and the area would come out negative,
+// unless the loop bounded a quarter of the sphere twice over. With (b) the map is one to one near every
+// normal. So the glued surface covers the sphere evenly, and by (c) once. So the patches are the surface of a
+// convex body that has every normal once, with radii of curvature of at most R. By Blaschke's theorem, any
+// ball of radius R that touches the body, with the body on its inner side, contains it. So the body is the
+// ball hull of its vertices.
 //
-// For (b): where a face turns left at a corner, its angle and the vertex's there make pi, and the two of the
-// edges make the rest. An edge is on both of its faces' balls, if these touch its ends, and between their
-// normals, if it turns forward. A concave edge would turn by nearly 2 pi: wide turns are measured.
+// For (b): if a face's region turns left at a corner, its angle and that of the vertex's region add up to pi
+// there. The angles of the two edges' regions add up to the other pi. An edge lies on the balls of both of
+// its faces if these balls touch its ends. It lies between the faces' normals if it turns forward. A concave
+// edge would turn by nearly 2 pi, so edges with wide turns are measured.
 #include "fcl_stpbv/volume/surface_check.h"
 
 #include <Eigen/Geometry>
@@ -38,15 +39,16 @@ constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 // Angle between two normals of an edge that are tested (rad).
 constexpr double kWide = 0.3;
 
-// Height of a vertex over the ball of a face (m), as the face's patch has it.
+// Height of a vertex over the ball of a face (m), with the normal that the face's patch stores.
 double patchHeight(const StpBv& volume, int face, int vertex) {
   const FaceRecord& f = volume.tables().patches.face(volume.facePatch(face));
   const Vector3d q = at(volume, vertex) - f.anchor;
   return q.squaredNorm() / (2 * volume.radii().rho) + q.dot(f.normal);
 }
 
-// The same, where it is small not by the patch's normal, which is rounded: by next to nothing on the support
-// function.
+// Height of a vertex over the ball of a face (m). Unless the vertex is clearly below the ball, the height is
+// computed without the patch's normal, which is rounded. (That rounding changes the support function by next
+// to nothing.)
 double height(const StpBv& volume, int face, int vertex) {
   const double rounded = patchHeight(volume, face, vertex);
   if (rounded < -1e-9 * volume.enclosingRadius()) return rounded;
@@ -105,7 +107,8 @@ double farthestOut(const StpBv& volume, const std::vector<Vector3d>& points) {
   return out;
 }
 
-// Heights of a face's corners over its own ball, which three of them fix: nothing for a triangle.
+// Greatest and least height of a face's corner over the face's own ball. Three corners fix this ball, so
+// triangles do not count.
 struct CornerHeights {
   double highest = -kInfinity, lowest = kInfinity;
 };
@@ -124,7 +127,8 @@ CornerHeights cornerHeights(const StpBv& volume) {
   return found;
 }
 
-// The most that a corner of a face, or the next corner beyond an edge of it, is outside its ball.
+// Largest height of a face's corner over the face's own ball, or over the ball of the face across an edge,
+// for the corners next to that edge (m).
 double vertexHeight(const StpBv& volume, const CornerHeights& corners) {
   double worst = corners.highest;
   for (const StpBv::Edge& edge : volume.edges()) {
@@ -158,7 +162,7 @@ double largestGap(const StpBv& volume) {
 
 // Whether every region is bounded by a loop that turns left, and they tile the sphere.
 bool tilesSphere(const StpBv& volume) {
-  constexpr double kOff = 1e-6;  // rad and sr: what slivers' rounding may add up to
+  constexpr double kOff = 1e-6;  // rad and sr; the rounding of slivers may add up to this
   const RegionAngles angles = regionAngles(volume);
   double sum = 0, least = 0;
   for (const double angle : angles.area) sum += angle, least = std::min(least, angle);
@@ -187,8 +191,9 @@ RegionAngles regionAngles(const StpBv& volume) {
     area(0) = 4 * kPi;
     return angles;
   }
-  // 2 pi minus the boundary's turning. Faces turn at their corners only; a vertex region is bounded by the
-  // cones of its edges, small circles, which turn along the way too.
+  // A region's area is 2 pi minus the turning of its boundary. The boundary of a face's region turns at its
+  // corners only. A vertex's region is bounded by the cones of its edges. These are small circles, which turn
+  // along the way, too.
   for (int v = 0; v < volume.vertexCount(); ++v) area(v) = 2 * kPi;
   for (int e = 0; e < volume.edgeCount(); ++e) {
     const StpBv::Edge& edge = volume.edges()[static_cast<std::size_t>(e)];
@@ -201,7 +206,8 @@ RegionAngles regionAngles(const StpBv& volume) {
     const StpBv::Ring& ring = volume.faces()[static_cast<std::size_t>(f)];
     double sum = 0;
     for (std::size_t k = 0; k < ring.size(); ++k) {
-      // At the same corner the vertex region turns between the cones of the two edges, by what is left of pi.
+      // At the same corner the vertex's region turns from the cone of one edge to that of the other, by pi
+      // minus `turn`.
       const double turn = cornerTurn(volume, f, k);
       angles.leastTurn = std::min(angles.leastTurn, turn);
       sum += turn;
@@ -229,7 +235,8 @@ EdgeGap edgeGap(const StpBv& volume, int e) {
     const Vector3d w = arc.at(k / 8.0);
     compare(own, edge.vertex[0], cosine * w - sine * arc.axis, &gap.ends);
     compare(own, edge.vertex[1], cosine * w + sine * arc.axis, &gap.ends);
-    if (k > 0 && k < 8) compare(own, volume.owner(w), w, &gap.arc);  // the region holds its arc
+    // The edge's region should contain its arc.
+    if (k > 0 && k < 8) compare(own, volume.owner(w), w, &gap.arc);
   }
   if (edge.face[0] < 0) return gap;
   for (const std::size_t side : {0u, 1u}) {
@@ -256,16 +263,16 @@ Soundness soundnessOf(const StpBv& volume, const std::vector<Vector3d>& points,
 }
 
 // The centre C of a patch is at the distance `rho` from the patch's vertices, with an error of at most `off`,
-// and no point is further away than `rho + off`. Move C towards the centre of the smallest ball, which has
-// all points within that ball's radius: then all points are within `rho`. In the other direction, no centre
-// that has all points within `rho` is much lower along one of the patch's normals. In both cases n.C changes
-// by at most `off` times rho / sqrt(rho^2 - radius^2), or by less if R is so close to the smallest R that
-// `off` is all the space there is.
+// and no point is further away than `rho + off`. Move C towards the centre of the smallest ball, which is
+// within that ball's radius of all points: then all points are within `rho`. In the other direction, no
+// centre that has all points within `rho` is much lower along one of the patch's normals. In both cases n.C
+// changes by at most `off` times rho / sqrt(rho^2 - radius^2). The change is smaller if R is so close to the
+// smallest R that `off` is all the space there is.
 double supportErrorOf(const StpBv& volume, double off) {
   if (!(off > 0)) return 0;
   const double rho = volume.radii().rho, radius = volume.enclosingRadius() - volume.radii().r;
   const double room = std::max(0.0, rho - radius) * (rho + radius);
-  return 2 * off * rho / std::sqrt(room + rho * off);  // twice that
+  return 2 * off * rho / std::sqrt(room + rho * off);  // twice the bound
 }
 
 }  // namespace fcl_stpbv::detail

@@ -11,15 +11,15 @@
 
 namespace fcl_stpbv::detail {
 
-/// Result of the check. `exact` and `sound`: the volume contains its points up to rounding; for `exact` the
-/// other points up to the rounding of their height alone. `off`: it misses points by more than that.
-/// `broken`: it is no ball hull at all.
+/// Result of the check. `exact` and `sound`: the volume contains its points up to rounding. For `exact` the
+/// points that are no vertices are inside up to the rounding of their height alone. `off`: the volume misses
+/// points by more than rounding. `broken`: the volume is no ball hull at all.
 enum class Soundness { exact, sound, off, broken };
 
-/// Uses only local tests, so the time is linear in the number of patches; only points that are no vertices
-/// need a search. `points` are all points of the cloud.
-/// `off`, where asked for, is the most that a point is outside a face's or an edge's ball, or a face's corner
-/// off its own (m).
+/// Uses only local tests, so the time is linear in the number of patches. Only `others`, the points that are
+/// no vertices, need a search. `points` are all points of the cloud. Unless `off` is null, it receives the
+/// largest distance by which a point is outside a face's or an edge's ball, or by which a face's corner is
+/// off the face's own ball (m).
 Soundness soundnessOf(const StpBv& volume, const std::vector<Eigen::Vector3d>& points,
                       const std::vector<Eigen::Vector3d>& others, double* off = nullptr);
 
@@ -27,8 +27,9 @@ Soundness soundnessOf(const StpBv& volume, const std::vector<Eigen::Vector3d>& p
 /// `off` (m).
 double supportErrorOf(const StpBv& volume, double off);
 
-/// Solid angles of the patches' regions of normals, by Gauss and Bonnet, an edge's further parts with their
-/// edge (sr); and the least angle by which a face's region turns left at a corner (rad).
+/// `area`: solid angles of the patches' regions of normals, by Gauss and Bonnet (sr); the further parts of an
+/// edge are counted with the edge's first patch. `leastTurn`: the least angle by which a face's region turns
+/// left at a corner (rad).
 struct RegionAngles {
   std::vector<double> area;
   double leastTurn = 0;
@@ -41,12 +42,12 @@ RegionAngles regionAngles(const StpBv& volume);
 /// surface, with the surface on its inner side, contains it (Blaschke's theorem).
 double vertexHeight(const StpBv& volume);
 
-/// Largest distances between two patches' core points at a common normal, on the
-/// boundaries of an edge's region (m).
+/// Largest distances between the core points of two patches at a common normal, on the boundaries of an
+/// edge's region (m).
 struct EdgeGap {
-  double ends = 0;                   ///< to its vertices' patches
-  double arc = 0;                    ///< along its middle, to the patches that hold those normals
-  std::array<double, 2> side{0, 0};  ///< to its faces' patches
+  double ends = 0;                   ///< to the patches of its vertices
+  double arc = 0;                    ///< along its middle, to the patches that own the normals there
+  std::array<double, 2> side{0, 0};  ///< to the patches of its faces
 
   double largest() const { return std::max(std::max(ends, arc), std::max(side[0], side[1])); }
 };

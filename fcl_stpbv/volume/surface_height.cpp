@@ -27,18 +27,18 @@ using Eigen::Vector3d;
 /// Where a ray from inside leaves a patch that is continued over the whole sphere.
 struct Exit {
   double height;    // along the ray (m)
-  bool isThere;     // or else the ray passes by, and this is where it is nearest
-  Vector3d normal;  // outward, unit
+  bool isThere;     // if false, the ray passes by the patch, and `height` is where it is nearest
+  Vector3d normal;  // unit, outward
 };
 
-// The height above y, along the unit direction d: |q + t d - I| = c for a point, the circle's farthest point
-// likewise. Without the normal.
+// The exit's height t above y along the unit direction d, from |y + t d - I| = c. I is the patch's point, or
+// the point of its circle that is farthest from the exit. `normal` is not set.
 Exit exitHeight(const Patch& patch, PatchKind kind, const Radii& radii, const Vector3d& y,
                 const Vector3d& d) {
   const Vector3d q = y - patch.anchor;
   if (kind != PatchKind::edge) {
-    // |q + t d + rho m|^2 = R^2 for a face, |q + t d|^2 = r^2 for a vertex; the
-    // constant term holds no large square.
+    // A face has |q + t d + rho m|^2 = R^2, a vertex |q + t d|^2 = r^2. The constant term contains no large
+    // square.
     const double rho = kind == PatchKind::face ? radii.rho : 0,
                  c = kind == PatchKind::face ? radii.R : radii.r;
     const double half = d.dot(q + rho * patch.axis);
@@ -47,8 +47,8 @@ Exit exitHeight(const Patch& patch, PatchKind kind, const Radii& radii, const Ve
     const double root = std::sqrt(half * half - constant);
     return {half > 0 ? -constant / (half + root) : root - half, true, {}};
   }
-  // The distance to the circle's farthest point is convex along the ray: Newton
-  // from beyond comes down monotonically.
+  // The distance to the circle's farthest point is convex along the ray. So Newton's method, started beyond
+  // the exit, comes down monotonically.
   const double half = halfLength(patch, radii), half2 = half * half;
   const double rest = radii.r * (radii.R + radii.rho) + half2;  // R^2 - kappa^2
   double t = radii.r + sag(patch, radii) + half + q.norm();
@@ -105,7 +105,8 @@ class Fence {
  public:
   explicit Fence(double half = 0) : corners_{{-half, -half}, {half, -half}, {half, half}, {-half, half}} {}
 
-  // Keeps what lies on the far side of the line through `a`, seen along `uphill`.
+  // Removes the part that lies beyond the line through `a` in the direction `uphill`, which is normal to the
+  // line.
   void cut(const Vector2d& a, const Vector2d& uphill) {
     kept_.clear();
     for (std::size_t k = 0; k < corners_.size(); ++k) {
@@ -127,7 +128,8 @@ class Fence {
     return true;
   }
 
-  // The least value inside of the linear function that is zero at `a` and has this slope.
+  // The least value inside the polygon, at most 0, of the linear function that is zero at `a` and has this
+  // slope.
   double least(const Vector2d& a, const Vector2d& slope) const {
     double least = 0;
     for (const Vector2d& corner : corners_) least = std::min(least, slope.dot(corner - a));
@@ -152,15 +154,16 @@ class Fence {
 
 // Step 2, by supporting planes, from patch `index` on.
 SurfaceHeight lowestPlane(const StpBv& volume, const Vector3d& y, const Vector3d& d, int index) {
-  // Of all supporting planes that the ray can meet, normals along d + a with a across d, the one met first is
-  // the surface's. With H the support function of length one along d, the height is H(d + a) - (d + a).y:
-  // convex in a, its gradient the part across d of x - y, x the surface point with that normal. A plane
-  // leaves half of the normals; a patch whose own exit has one of its own normals is the answer.
+  // Consider all supporting planes that the ray can meet. Their normals are along d + a, with a perpendicular
+  // to d. The ray leaves the surface at the first plane that it meets. Let H be the support function for
+  // vectors of any length. The plane's height is H(d + a) - (d + a).y. It is convex in a, and its gradient is
+  // the part of x - y perpendicular to d, where x is the surface point with that normal. Each plane leaves
+  // half of the normals. If the exit through a patch has one of the patch's own normals, it is the answer.
   const Vector3d e = d.unitOrthogonal(), f = d.cross(e);
   const double reach = 2 * volume.enclosingRadius() + (y - volume.centre()).norm();
   constexpr double kWidest = 2e8;  // beyond it a ray grazes the surface
   SurfaceHeight best{kInfinity, index, 0};
-  // What rounds a surface point: its own coordinates, and rho times the rounding of its normal.
+  // Rounding of a surface point: that of its own coordinates, and rho times the rounding of its normal.
   const double rounding = 1e-15 * (reach + volume.radii().R + y.norm());
   Vector2d a = Vector2d::Zero();
   Fence fence;
@@ -176,20 +179,20 @@ SurfaceHeight lowestPlane(const StpBv& volume, const Vector3d& y, const Vector3d
     const Vector3d over = corePoint(volume, index, n) + volume.radii().r * n - y;
     const Vector2d uphill(over.dot(e), over.dot(f));
     if (uphill.norm() <= rounding) break;
-    // Each plane is at least r from y, so none along d + a is lower than r |d + a|.
+    // Each plane is at least r from y, so no plane with a normal along d + a is lower than r |d + a|.
     if (step == 1) fence = Fence(std::min(kWidest, (height + rounding) / volume.radii().r));
     fence.cut(a, uphill);
     // The height is convex: no normal in the fence is lower than the tangent says. An exit normal that has
     // many roundings itself, as on a thin edge patch with r = 0, is recognised as the answer by this alone.
     if (fence.isSpent() || fence.least(a, uphill) >= -rounding) break;
-    // Every third step makes sure of progress.
+    // Every third step goes to the centroid, which ensures progress.
     const Vector3d exit = exitOf(volume, index, y, d).normal;
     const double slope = exit.dot(d);
     const Vector2d target(exit.dot(e) / slope, exit.dot(f) / slope);
     if (slope > 0 && step % 3 != 0 && fence.holds(target)) {
       a = target;
     } else {
-      a = fence.centroid(), index = -1;  // as a rule far away
+      a = fence.centroid(), index = -1;  // the centroid is usually far away, so there is no hint
     }
   }
   return best;

@@ -10,8 +10,8 @@ namespace fcl_stpbv::detail {
 /// Where a ray leaves the surface.
 struct SurfaceHeight {
   double height;  ///< along the ray (m)
-  int patch;      ///< the patch it leaves through
-  int planes;     ///< exits and supporting planes that were tried: the work done
+  int patch;      ///< the patch through which it leaves
+  int planes;     ///< number of exits and supporting planes that were tried, a measure of the work
 };
 
 /// Height of the surface over `y`, any point of the vertices' hull, along the unit direction `d`. `hint` is a

@@ -22,7 +22,7 @@ using Eigen::Vector3d;
 class Tessellator {
  public:
   Tessellator(const StpBv& volume, double angle) : volume_(volume), angle_(angle) {
-    // A region between two arcs of one step each would be two triangles back to back.
+    // A region between two arcs with one step each would become two triangles back to back.
     std::vector<int> arcs(static_cast<std::size_t>(volume.vertexCount()), 0);
     for (const StpBv::Edge& edge : volume.edges())
       for (const int v : edge.vertex) arcs[static_cast<std::size_t>(v)] += steps(edge.turn) > 1 ? 3 : 1;
@@ -46,9 +46,10 @@ class Tessellator {
   double halfTurn(int e) const { return std::asin(std::min(1.0, volume_.patch(volume_.edgePatch(e)).sine)); }
 
   int steps(double turn) const { return std::max(1, static_cast<int>(std::ceil(turn / angle_))); }
-  /// Around an edge, and along the arcs of vertex regions on both of its ends.
+  /// Steps around an edge, and along the arcs of the vertex regions at both of its ends.
   int stepsRound(double turn) const { return std::max(leastRound_, steps(turn)); }
-  /// Along an edge, and along the side of each of its faces: the surface bulges most over the middle.
+  /// Steps along an edge, and along the side of each of its faces. At least two, because the surface bulges
+  /// most over the middle.
   int stepsAlong(int e) const { return std::max(2, steps(2 * halfTurn(e))); }
 
   int point(const Place& place, int patch, const Vector3d& n) {
@@ -57,8 +58,8 @@ class Tessellator {
     return found->second;
   }
 
-  // corePoint(), but of a face the height comes from the way across: the normal's length is off by rounding,
-  // and the height by R times as much.
+  // corePoint(), except that a face's height is computed from the part across the axis. The length of the
+  // normal is off by rounding, and the height would be off by R times as much.
   Vector3d onCore(int patch, const Vector3d& n) const {
     if (volume_.kind(patch) != PatchKind::face) return corePoint(volume_, patch, n);
     const Patch face = volume_.patch(patch);
@@ -66,13 +67,13 @@ class Tessellator {
     return face.anchor + volume_.radii().rho * (across - turned.squaredNorm() / 2 * face.axis);
   }
 
-  // Where four patches meet. Without a margin all that a vertex has is its point.
+  // A corner where four patches meet. Without a margin a vertex's patch is just the vertex.
   Place corner(int face, int vertex) const {
     return volume_.radii().r > 0 ? Place{atCorner, face, vertex, 0} : Place{atVertex, vertex, 0, 0};
   }
 
-  // On the boundary of an edge's region and one end's: step i of `round`, from the edge's first face to its
-  // second; all the way round a spindle the last step is the first.
+  // A place on the boundary between the region of an edge and that of one of its ends: step i of `round`,
+  // from the edge's first face to its second. On a spindle the last step is the first one again.
   Place besideEnd(int e, std::size_t end, int i, int round) const {
     const StpBv::Edge& of = edge(e);
     if (volume_.radii().r == 0) return {atVertex, of.vertex[end], 0, 0};
@@ -81,7 +82,8 @@ class Tessellator {
     return {besideVertex, e, static_cast<int>(end), i};
   }
 
-  // On the boundary of an edge's region and one face's: step j of `along`, from the edge's first vertex.
+  // A place on the boundary between the region of an edge and that of one of its faces: step j of `along`,
+  // from the edge's first vertex.
   Place besideSide(int e, std::size_t side, int j, int along) const {
     if (j == 0 || j == along) return corner(edge(e).face[side], edge(e).vertex[j == 0 ? 0 : 1]);
     return {besideFace, e, static_cast<int>(side), j};
@@ -102,7 +104,8 @@ class Tessellator {
                           : hasFaces && i == 0     ? besideSide(e, 0, j, along)
                           : hasFaces && i == round ? besideSide(e, 1, j, along)
                                                    : Place{within, e, hasFaces ? i : i % round, j};
-      // At an end the vertex itself: along the edge points are off by R times the rounding of the normal.
+      // At an end the vertex's patch gives the point, because along the edge points are off by R times the
+      // rounding of the normal.
       const int own = j == 0 ? edge(e).vertex[0] : j == along ? edge(e).vertex[1] : patch;
       return point(place, own,
                    std::cos(tilt) * arc.at(static_cast<double>(i) / round) + std::sin(tilt) * arc.axis);
@@ -114,13 +117,15 @@ class Tessellator {
       }
   }
 
-  // The steps along an arc of a region's boundary, as the edge beside it has them, and the place of each.
+  // stepsOf(): number of steps along an arc of a region's boundary, as for the edge beside it. placeOn(): the
+  // place of step i.
   int stepsOf(const Region& region, const Arc& arc) const {
     return arc.edge >= 0 && volume_.kind(region.patch) == PatchKind::face ? stepsAlong(arc.edge)
                                                                           : stepsRound(arc.turn);
   }
   Place placeOn(const Region& region, const Arc& arc, int i, int count) const {
-    if (arc.edge < 0) {  // the rim that both halves of a sphere share, from either side
+    // The rim that both halves of a sphere share; they run along it in opposite directions.
+    if (arc.edge < 0) {
       const int k = arc.axis.z() > 0 ? i : count - i;
       return volume_.radii().r > 0 ? Place{besideVertex, 0, 0, k % count} : Place{atVertex, 0, 0, 0};
     }
@@ -133,7 +138,7 @@ class Tessellator {
     return besideEnd(arc.edge, end, end == 1 ? i : count - i, count);
   }
 
-  // Rings about the region's centre. A point on a ring is identified by the boundary point that it
+  // Divides a region by rings about its centre. A point on a ring is identified by the boundary point that it
   // corresponds to.
   void addRegion(const Region& region, int number) {
     double widest = 0;

@@ -1,6 +1,6 @@
 // Checks of a finished volume:
-// 1. no vertex above the ball of its own or a neighbouring face (which decides for all, by Blaschke's
-//    theorem), no given point above the surface;
+// 1. no vertex is above the ball of its own face or a neighbouring face (which decides for all vertices and
+//    balls, by Blaschke's theorem), and no given point is above the surface;
 // 2. the solid angles of all regions, by Gauss-Bonnet, sum to 4 pi;
 // 3. patches meet along their boundaries to rounding.
 #include "fcl_stpbv/volume/verify.h"
@@ -28,9 +28,9 @@ using Eigen::Vector3d;
 
 std::string brief(double value) { return formatted("%.3g", value); }
 
-// Largest height over the surface pulled in by `margin`, of the volume's own vertices and
-// of a cloud's. A vertex is on its own patch; any other point may come closest to an
-// edge, and of a cloud only the hull counts.
+// Largest height of the volume's vertices and of a cloud's points over the surface pulled in by `margin` (m).
+// A vertex lies on its own patch, but any other point may be nearest to an edge. Of a cloud only the vertices
+// of its convex hull count.
 double containmentOf(const StpBv& volume, const std::vector<Vector3d>& cloud, double margin) {
   double worst = vertexHeight(volume);
   if (cloud.empty()) return worst;
@@ -92,17 +92,17 @@ Verification verify(const StpBv& volume, const std::vector<Vector3d>& points, do
   result.solidAngleError = sum - 4 * kPi;
 
   const double cosine = leastCosine(volume);
-  // Heights and boundaries: a few roundings of lengths up to the body's size and, for normals, of rho times
-  // their rounding. The circle around an edge, kappa = sqrt(rho^2 - half^2), is off by the three roundings
-  // under its root, of rho^2 each, by 2 kappa.
+  // Heights and boundaries are off by a few roundings of lengths up to the body's size and, because of the
+  // normals, by rho times their rounding. The circle around an edge, kappa = sqrt(rho^2 - half^2), is off by
+  // the three roundings of rho^2 under its root, divided by 2 kappa.
   constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
   const double length = touchTolerance(all) + (8 + 1.5 / cosine) * kEpsilon * volume.radii().rho;
   const BoundaryGap boundaries = boundaryGapOf(volume, 4 * length);
   result.boundaryGap = boundaries.largest;
-  // Angles: each corner is rounded by a few units, and an edge's turn by one over the cosine as much.
+  // Each corner's angle is off by a few roundings, and an edge's turn by one over the cosine as much.
   const double angle = 1e-13 * (16 + volume.edgeCount()) + 4 * kEpsilon / cosine;
-  // A point may have been merged into a vertex next to it, and that vertex may be outside a joined face by
-  // the same length.
+  // A point may have been merged into a vertex next to it, and that vertex may be outside the ball of a
+  // joined face by the same length.
   if (!(result.containment <= length + touchTolerance(all)))
     result.message = "a point lies " + brief(result.containment) + " m nearer to the surface than the margin";
   else if (!(std::abs(result.solidAngleError) <= angle) || !(least >= -angle))

@@ -10,7 +10,7 @@ namespace fcl_stpbv {
 
 /// Result of verify(). Lengths in m.
 struct Verification {
-  bool ok = false;  ///< whether nothing is off by more than rounding
+  bool ok = false;  ///< whether all errors are at the level of rounding
   /// Largest distance by which a point is less than `margin` below the surface; at most rounding error in a
   /// correct volume. Infinite, and `ok` false, if a point or the margin is not finite.
   double containment = 0;
@@ -25,7 +25,7 @@ struct Verification {
 /// volume's r below the surface. The regions of normals tile the unit sphere. Neighbouring patches meet
 /// (paper III.C: the surface is C1).
 Verification verify(const StpBv& volume, const std::vector<Eigen::Vector3d>& points = {});
-/// The same, but `points` must lie at least `margin` (m) below the surface, instead of r.
+/// The same checks, but `points` must lie at least `margin` (m) below the surface, instead of r.
 Verification verify(const StpBv& volume, const std::vector<Eigen::Vector3d>& points, double margin);
 
 /// Solid angle of each patch's region of normals (sr), by spherical excess. The further parts of a split edge

@@ -8,7 +8,7 @@ namespace fcl_stpbv::detail {
 VertexGraph::VertexGraph(const std::vector<Eigen::Vector3d>& vertices,
                          const std::vector<std::array<int, 2>>& edges)
     : stars_(vertices.size()) {
-  std::vector<std::int32_t> last(vertices.size());  // star with room
+  std::vector<std::int32_t> last(vertices.size());  // the star of each vertex that has room
   std::iota(last.begin(), last.end(), 0);
   std::vector<std::size_t> filled(vertices.size(), 0);
   for (const std::array<int, 2>& ends : edges)

@@ -10,8 +10,9 @@
 
 namespace fcl_stpbv::detail {
 
-/// Unit directions of up to eight edges that leave a vertex, in single precision; unused ones are zero. A
-/// vertex with more edges has a further star, with the index `next`.
+/// Unit directions of up to eight edges that leave a vertex, in single precision. Unused places repeat the
+/// last edge; they are zero if there is no edge. A vertex with more edges has a further star, with the index
+/// `next`.
 struct VertexStar {
   static constexpr int kSize = 8;
   using Floats = float __attribute__((vector_size(16)));
@@ -51,14 +52,14 @@ struct VertexStar {
 class VertexGraph {
  public:
   VertexGraph() = default;
-  /// `edges` name the two ends of each.
+  /// `edges`: the two ends of each edge.
   VertexGraph(const std::vector<Eigen::Vector3d>& vertices, const std::vector<std::array<int, 2>>& edges);
 
-  /// Rounding of a rise along `d`, of the sum of its components.
+  /// Rounding of a rise along `d`, as a share of the sum of the absolute components of `d`.
   static constexpr float kLevel = 1e-6f;
 
   /// The vertex itself, or its neighbour up the steepest edge along `d`. Edges that rise by less than `level`
-  /// a metre, `kLevel` of the sum of the components of `d` for rounding, count as level.
+  /// per metre count as level. `kLevel` times the sum of the absolute components of `d` allows for rounding.
   int uphill(int vertex, const Eigen::Vector3f& d, float level) const {
     const VertexStar* star = &stars_[static_cast<std::size_t>(vertex)];
     std::int32_t best = star->steepest(d), enough;
@@ -72,21 +73,21 @@ class VertexGraph {
     return best > enough ? over : vertex;
   }
 
-  /// A neighbour of the vertex, itself highest along `d`, that is least below
-  /// it. `length` is at least that of `d`.
+  /// For a vertex that is the highest one along `d`: its neighbour over the edge that descends least.
+  /// `length` is at least the length of `d`.
   int beside(int vertex, const Eigen::Vector3f& d, float length) const {
     const VertexStar& star = stars_[static_cast<std::size_t>(vertex)];
     return star.neighbour[star.steepest(d, 2.0f * length) & (VertexStar::kSize - 1)];
   }
 
-  /// The vertex furthest along `d` to single precision, from `vertex` on.
+  /// The vertex furthest along `d` to single precision. The climb starts at `vertex`.
   int climb(int vertex, const Eigen::Vector3f& d) const;
 
-  /// Memory it holds, in bytes.
+  /// Memory that the graph uses, in bytes.
   std::size_t memory() const { return stars_.capacity() * sizeof(VertexStar); }
 
  private:
-  std::vector<VertexStar> stars_;  // one a vertex, then the further ones
+  std::vector<VertexStar> stars_;  // one for each vertex, then the further stars
 };
 
 }  // namespace fcl_stpbv::detail
