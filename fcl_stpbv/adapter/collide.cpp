@@ -19,7 +19,7 @@ using fcl::CollisionResultd;
 using fcl::Contactd;
 using fcl::Transform3d;
 
-/// Fills a result up to its limit.
+/// Fills a result up to its largest number of contacts.
 class Contacts {
  public:
   Contacts(const CollisionRequestd& request, CollisionResultd& result, PairCache* cache)
@@ -28,7 +28,8 @@ class Contacts {
   const PairCache& cache() const { return cache_; }
   bool full() const { return result_.numContacts() >= request_.num_max_contacts; }
 
-  /// Adds the contact of two bodies, which knows who they are, unless they are certainly apart.
+  /// Adds `contact` of two bodies unless they are certainly apart. The caller has set its geometries and
+  /// elements.
   void add(const ConvexBody& a, const ConvexBody& b, Contactd& contact) {
     if (request_.enable_contact ? meet(a, b, contact) : !isFartherThan(0.0, a, b, &cache_))
       result_.addContact(contact);
@@ -46,7 +47,8 @@ class Contacts {
                                      : isFartherThan(0.0, a, b, &cache_);
     if (apart) return false;
     const Distance found = distance(a, b, &cache_);
-    if (found.status == DistanceStatus::invalid) return true;  // as it is: without an answer
+    // No answer: `contact` stays as the caller has made it.
+    if (found.status == DistanceStatus::invalid) return true;
     contact.normal = found.normal;
     contact.pos = 0.5 * (found.point[0] + found.point[1]);
     contact.penetration_depth = std::max(0.0, -found.distance);
@@ -59,7 +61,7 @@ class Contacts {
   PairCache& cache_;
 };
 
-/// The contacts of all elements, for the walk down both hierarchies.
+/// Visitor of descend() that adds the contacts of all elements.
 class ElementContacts {
  public:
   ElementContacts(const PosedPair& pair, const Contactd& blank, Contacts& found)

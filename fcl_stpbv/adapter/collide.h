@@ -29,7 +29,7 @@ namespace fcl_stpbv {
 std::size_t collide(const fcl::CollisionObjectd* object1, const fcl::CollisionObjectd* object2,
                     const fcl::CollisionRequestd& request, fcl::CollisionResultd& result,
                     PairCache* cache = nullptr, bool finite = false);
-/// The same for two geometries at their poses.
+/// collide() for two geometries at their poses.
 std::size_t collide(const fcl::CollisionGeometryd* geometry1, const fcl::Transform3d& pose1,
                     const fcl::CollisionGeometryd* geometry2, const fcl::Transform3d& pose2,
                     const fcl::CollisionRequestd& request, fcl::CollisionResultd& result,
@@ -50,7 +50,7 @@ class PairCaches;
 /// Input and output of `collisionCallback`; pass its address to a manager's `collide`. Contacts accumulate in
 /// `result`: use a new object for each query.
 struct CollisionData {
-  fcl::CollisionRequestd request;  ///< as collide() reads it
+  fcl::CollisionRequestd request;  ///< the request, as collide() reads it
   fcl::CollisionResultd result;    ///< contacts of all pairs so far
   /// Set it to stop the search; also set when `result` has reached the requested number of contacts.
   bool done = false;

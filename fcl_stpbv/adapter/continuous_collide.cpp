@@ -22,7 +22,7 @@ using fcl::ContinuousCollisionRequestd;
 using fcl::ContinuousCollisionResultd;
 using fcl::Transform3d;
 
-/// One geometry on its way: a ball around it and, where it is one, its convex body.
+/// One moving geometry with a ball around it, and with its convex body if it is one.
 class Moving {
  public:
   Moving(const CollisionGeometryd& given, const SteadyMotion& motion) : geometry(given), motion_(motion) {
@@ -38,7 +38,7 @@ class Moving {
     centre = box.center();
     radius = 0.5 * box.diagonal().norm();
     around(motion.begin * centre, radius);
-    // The points go around the axis with that speed, in circles.
+    // The points go around the axis in circles, at a speed of at most `turning_`.
     acceleration_ = motion.angular.norm() * turning_;
   }
 
@@ -50,9 +50,9 @@ class Moving {
     return {velocity_ + motion_.angular.cross(about - pose.translation()), motion_.angular, acceleration_,
             true};
   }
-  /// Most that any of its points moves in a unit of time (m).
+  /// Upper bound on how far any point of the geometry moves in a unit of time (m).
   double speed() const { return motion_.linear.norm() + turning_; }
-  /// The same seen from the other body. A velocity that both have does not bring them nearer.
+  /// speed() as seen from the other body. A velocity that both have does not bring them nearer.
   double speedBeside(const Moving& other) const {
     return (motion_.linear - other.motion_.linear).norm() + turning_ + other.turning_;
   }
@@ -62,8 +62,8 @@ class Moving {
   void reachTo(const Moving& other) {
     around(other.motion_.begin * other.centre, other.radius + other.speed() + motion_.linear.norm());
   }
-  /// Bound on all lengths that a pose and a velocity are made of (m): where the body is and how it moves,
-  /// however far the axis is.
+  /// Bound on all lengths from which a pose and a velocity are computed (m): where the body is and how it
+  /// moves. How far away the axis is does not matter.
   double coordinates() const {
     return motion_.begin.translation().lpNorm<1>() + centre.lpNorm<1>() + radius + speed() +
            motion_.turning.norm();
@@ -74,7 +74,7 @@ class Moving {
     return tree.any() && !tree.occupied(tree.root());
   }
 
-  /// With boxes in place of those that FCL has merged; null where it has not.
+  /// The tree with new boxes in place of those that FCL has merged; null if FCL has merged none.
   const ElementTree* refitted() const { return refitted_ ? &*refitted_ : nullptr; }
 
   const CollisionGeometryd& geometry;
@@ -94,7 +94,7 @@ class Moving {
     turning_ = there.norm() + w.norm() * reach;
   }
 
-  // The extent of an octree comes from its occupied cells.
+  // Of an octree only the occupied cells count.
   void addCells(const PosedGeometry& still, const PosedGeometry::Part& part, Eigen::AlignedBox3d& box) const {
     if (part.leaf || !still.loose()) {
       const Vector3d half = part.box.axes.cwiseAbs() * part.box.half;
@@ -108,7 +108,7 @@ class Moving {
 
   SteadyMotion motion_;
   std::optional<ElementTree> refitted_;
-  Vector3d velocity_{0, 0, 0};  // of the origin
+  Vector3d velocity_{0, 0, 0};  // of the body's origin
   double turning_ = 0, acceleration_ = 0;
 };
 
@@ -129,7 +129,7 @@ class MovingPair {
     b_.place(t);
   }
 
-  /// Whether there is nothing to meet: one of them is a tree whose cells are all free.
+  /// Whether the geometries cannot meet, because one of them is a tree whose cells are all free.
   bool hasNothing() const { return a_.known && b_.known && (a_.isEmptyTree() || b_.isEmptyTree()); }
 
   bool look(int, double most, Cover& cover) {
@@ -140,10 +140,10 @@ class MovingPair {
         detail::distance(a_.geometry, a_.pose, b_.geometry, b_.pose, context, {a_.refitted(), b_.refitted()});
     if (!(answer.distance > margin_)) return true;
     const double gap = answer.lower - margin_;
-    // What has no bounds and turns leaves every fixed plane.
+    // An unbounded geometry that rotates crosses every fixed plane.
     const bool turning = (a_.unbounded && a_.turns()) || (b_.unbounded && b_.turns());
     if (margin_ < 0 && !a_.convex && !b_.convex) {
-      cover = {most, most};  // surfaces have no depth
+      cover = {most, most};  // surfaces have no depth, so they never come within a negative margin
     } else if (a_.convex && b_.convex && !turning) {
       cover = byPlane(gap, most);
     } else {
@@ -176,7 +176,7 @@ class MovingPair {
                          about(),
                          {a_.velocity(about()), b_.velocity(about())},
                          a_.speedBeside(b_),
-                         0.0,  // that is the most on the whole way
+                         0.0,  // the speed bound holds for the whole motion, so it does not grow
                          margin_,
                          slack_},
                         most, known);
@@ -193,13 +193,13 @@ bool makeSteady(SteadyMotion& motion) {
          motion.angular.allFinite();
 }
 
-/// Where FCL's marks or a tree's cells call all of a geometry free.
+/// The answer if FCL's marks or a tree's cells call all of a geometry free.
 const MotionAnswer kMeetsNothing{MotionVerdict::free, 1, 1, {}, 1};
 
 double inFclTerms(const MotionAnswer& found, const SteadyMotion& motion1, const SteadyMotion& motion2,
                   ContinuousCollisionResultd& result) {
   result.is_collide = found.verdict != MotionVerdict::free;
-  // Behind `from` an undecided motion may meet at any time.
+  // After `from` the bodies of an undecided motion may meet at any time.
   result.time_of_contact = found.verdict == MotionVerdict::undecided ? found.from : found.until;
   result.contact_tf1 = motion1.at(result.time_of_contact);
   result.contact_tf2 = motion2.at(result.time_of_contact);
@@ -208,7 +208,7 @@ double inFclTerms(const MotionAnswer& found, const SteadyMotion& motion1, const 
   return answered ? result.time_of_contact : -1;
 }
 
-/// Two geometries on their ways, in FCL's words.
+/// firstContact() of two moving geometries, with FCL's request and result.
 double collideOnTheirWays(const CollisionGeometryd& geometry1, const SteadyMotion& motion1,
                           const CollisionGeometryd& geometry2, const SteadyMotion& motion2,
                           const ContinuousCollisionRequestd& request, ContinuousCollisionResultd& result) {

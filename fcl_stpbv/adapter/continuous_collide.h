@@ -71,7 +71,7 @@ struct MotionRequest {
 /// Result for several pairs over the time from 0 to 1.
 struct MotionBracket {
   MotionVerdict verdict = MotionVerdict::free;  ///< verdict on all pairs together
-  double from = 1;                              ///< proven free before it
+  double from = 1;                              ///< proven free before this time
   /// A pair is in contact at this time. 1 for a free motion. For an undecided motion, the end of the interval
   /// that was examined last.
   double until = 1;
@@ -83,7 +83,7 @@ struct MotionBracket {
 /// Result for one pair over the time from 0 to 1.
 struct MotionAnswer {
   MotionVerdict verdict = MotionVerdict::undecided;  ///< free, in contact or undecided
-  double from = 0;                                   ///< proven free before it
+  double from = 0;                                   ///< proven free before this time
   /// The pair is in contact at this time, which is at most the tolerance after `from`. 1 for a free motion.
   /// For an undecided motion, the end of the interval that was examined last.
   double until = 0;
@@ -114,18 +114,18 @@ double continuousCollide(const fcl::CollisionGeometryd* geometry1, const fcl::Mo
                          const fcl::CollisionGeometryd* geometry2, const fcl::MotionBased* motion2,
                          const fcl::ContinuousCollisionRequestd& request,
                          fcl::ContinuousCollisionResultd& result);
-/// The same, for motions between two poses of each geometry.
+/// continuousCollide() for motions between two poses of each geometry.
 double continuousCollide(const fcl::CollisionGeometryd* geometry1, const fcl::Transform3d& begin1,
                          const fcl::Transform3d& end1, const fcl::CollisionGeometryd* geometry2,
                          const fcl::Transform3d& begin2, const fcl::Transform3d& end2,
                          const fcl::ContinuousCollisionRequestd& request,
                          fcl::ContinuousCollisionResultd& result);
-/// The same, for motions that start at the current poses of two objects.
+/// continuousCollide() for motions that start at the current poses of two objects.
 double continuousCollide(const fcl::CollisionObjectd* object1, const fcl::Transform3d& end1,
                          const fcl::CollisionObjectd* object2, const fcl::Transform3d& end2,
                          const fcl::ContinuousCollisionRequestd& request,
                          fcl::ContinuousCollisionResultd& result);
-/// The same, under FCL's name for it, for objects that contain their motion.
+/// continuousCollide() for objects that contain their motion, under FCL's name for it.
 double collide(const fcl::ContinuousCollisionObjectd* object1, const fcl::ContinuousCollisionObjectd* object2,
                const fcl::ContinuousCollisionRequestd& request, fcl::ContinuousCollisionResultd& result);
 

@@ -22,11 +22,12 @@ bool distanceCallback(fcl::CollisionObjectd* object1, fcl::CollisionObjectd* obj
     if (query.caches) context.cache = &query.caches->of(object1, object2);
     const DistanceAnswer answer = distance(*object1, *object2, context);
     query.invalid += answer.status == DistanceStatus::invalid;
-    if (answer.distance < query.result.distance) query.result = answer;  // of no answer minus infinity
+    // Without an answer it is minus infinity.
+    if (answer.distance < query.result.distance) query.result = answer;
   }
-  // Above 0, so that pairs of overlapping boxes are still asked (their distance is 0, and FCL
-  // prunes by `<`). Below the largest double, at which the sweeping managers begin and which
-  // they would take for "not called" for ever.
+  // `dist` is above 0, so that pairs of overlapping boxes are still asked: the distance of such boxes is 0,
+  // and FCL prunes by `<`. It is below the largest double, with which the sweeping managers begin: they would
+  // always take that value for "not called yet".
   dist = std::clamp(query.result.distance, std::numeric_limits<double>::min(),
                     0.5 * std::numeric_limits<double>::max());
   return query.done || (query.stopAtContact && query.result.distance <= 0);

@@ -21,14 +21,14 @@ Cover shorter(const Cover& p, const Cover& q) {
   return {std::min(p.before, q.before), std::min(p.after, q.after)};
 }
 
-/// A visitor of descend().
+/// Visitor of descend() that finds the elements that may meet first.
 class FirstToMeet {
  public:
-  /// `known`: any two stay apart for as long as that.
+  /// `known`: a time for which any two elements stay apart.
   FirstToMeet(const MovingNow& now, double most, const Cover& known)
       : now_(now), known_(known), met_{most, most}, left_{most, most} {}
 
-  /// For how long all stay apart.
+  /// The time for which all elements stay apart.
   Cover least() const { return shorter(met_, left_); }
 
   double bound(const Part& a, const Part& b) {
@@ -61,8 +61,10 @@ class FirstToMeet {
   }
 
  private:
-  static constexpr int kQueries = 256;    // of two elements: more cost more than they gain
-  static constexpr double kEnough = 0.5;  // of the time of the elements met: fine meshes have many alike
+  // Distance queries of two elements; more would cost more than they gain.
+  static constexpr int kQueries = 256;
+  // Share of `met_` from which on parts are left out, because fine meshes have many similar elements.
+  static constexpr double kEnough = 0.5;
 
   double most() const { return std::max(met_.before, met_.after); }
   bool leaveOut(const Cover& cover) {
@@ -74,7 +76,7 @@ class FirstToMeet {
   Cover bySpeed(double gap) const {
     return speedCover(gap - now_.margin, now_.speed, now_.acceleration, most(), now_.slack);
   }
-  /// From the gap along `n` of what both reach.
+  /// The cover from the gap along `n` between what both bodies reach.
   template <typename ReachA, typename ReachB>
   Cover byPlane(const Vector3d& n, const ReachA& reachA, const ReachB& reachB, double rounding) const {
     const double gap = -reachB(Vector3d(-n)) - reachA(n) - now_.margin;
@@ -94,7 +96,7 @@ class FirstToMeet {
 
   const MovingNow& now_;
   const Cover known_;
-  Cover met_, left_;  // of the elements that were looked at, of what was left out
+  Cover met_, left_;  // `met_`: of the elements that were examined; `left_`: of the parts that were left out
   int queries_ = 0;
 };
 

@@ -13,12 +13,12 @@ namespace fcl_stpbv::detail {
 /// Two moving geometries at one time. An unbounded geometry must not rotate.
 struct MovingNow {
   const PosedPair& pair;
-  Eigen::Isometry3d pose;                ///< of the first one
-  Eigen::Vector3d normal;                ///< of the distance now: unit, from the first to the second
-  std::array<Eigen::Vector3d, 2> point;  ///< its witness points
-  Eigen::Vector3d about;                 ///< a point between these, to which the velocities refer
+  Eigen::Isometry3d pose;  ///< pose of the first geometry
+  Eigen::Vector3d normal;  ///< unit normal of the present distance, from the first geometry to the second
+  std::array<Eigen::Vector3d, 2> point;  ///< witness points of the present distance
+  Eigen::Vector3d about;  ///< a point between the witness points, to which the velocities refer
   std::array<BodyVelocity, 2> velocity;
-  /// Upper bound on the speed at which any two of their points approach now (m per unit of time).
+  /// Upper bound on the speed at which any two points of the geometries approach now (m per unit of time).
   double speed;
   double acceleration;  ///< upper bound on the growth of that speed per unit of time
   double margin;

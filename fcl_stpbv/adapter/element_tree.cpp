@@ -28,13 +28,14 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using Node = ElementTree::Node;
 
-/// Rounding in FCL's fitting of a bounding volume may leave a triangle's
-/// corner outside by this part of its size.
+/// Rounding in FCL's fitting of a bounding volume may leave a triangle's corner outside by this share of its
+/// size.
 constexpr double kFit = 1e-9;
 
 constexpr double kHuge = 1e150;  // m, makeRigid()'s bound on a pose
 
-/// Whether there is anything in it, and its boxes belong to its vertices: not between FCL's begin and end.
+/// Whether the mesh has boxes that belong to its vertices. That is not so between FCL's begin and end of a
+/// change.
 template <typename BV>
 bool isBuilt(const fcl::BVHModel<BV>& mesh) {
   const fcl::BVHBuildState state = mesh.build_state;
@@ -56,7 +57,7 @@ Node meshNode(const fcl::BVHModel<BV>& mesh, int index, const std::vector<Eigen:
   return {node.isLeaf() ? node.primitiveId() : index, node.isLeaf(), nullptr, box};
 }
 
-/// Calls `action` with the geometry as the BVHModel it is; `otherwise` for what is none.
+/// Calls `action` with the geometry as the BVHModel that it is. Returns `otherwise` if it is none.
 template <typename Action, typename Result>
 Result withMesh(const fcl::CollisionGeometryd& g, const Action& action, Result otherwise) {
   switch (g.getNodeType()) {
@@ -102,7 +103,7 @@ Node treeNode(const fcl::OcTreed& tree, const Cell* cell, bool leaf, const fcl::
   return {cell - tree.getRoot(), leaf, cell, boxAround(box)};
 }
 
-/// Cells that are free are left out. An inner cell's own mark may be older than those below it.
+/// Free cells are left out. The mark of an inner cell may be older than the marks of the cells below it.
 int treeChildren(const fcl::OcTreed& tree, const Node& node, std::array<Node, 8>& child) {
   const Cell* cell = static_cast<const Cell*>(node.handle);
   const fcl::AABBd box(node.box.centre - node.box.half, node.box.centre + node.box.half);
@@ -130,7 +131,7 @@ bool areNumbers(const Vector3d* corner, int count) {
     std::memcpy(&four, from->data() + 4 * part, sizeof four);
     return four;
   };
-  Packed x{}, y{}, z{};  // four corners are three registers
+  Packed x{}, y{}, z{};  // four corners fill three registers
   int i = 0;
   for (; i + 4 <= count; i += 4) {
     x += 0.0 * (kToEnd * load(corner + i, 0));
@@ -245,7 +246,8 @@ bool ElementTree::find(std::intptr_t id, const Vector3d& x, double off, Shape& s
         false);
     return within && element({id, true, nullptr, node.box}, shape, place);
   }
-  // Down a tree to where `x` is, to rounding; a point between cells may lie in several.
+  // Descends an octree to the cells that contain `x` up to rounding. A point between cells may lie in
+  // several.
   constexpr int kPending = 8 * 17;  // octomap is sixteen levels deep
   std::array<Node, kPending> pending;
   int count = 0;

@@ -18,10 +18,10 @@ namespace fcl_stpbv::detail {
 /// An oriented box in the frame of a mesh or an octree. Every FCL bounding volume is converted to one.
 struct OrientedBox {
   Eigen::Vector3d centre;
-  Eigen::Matrix3d axes;  ///< columns
+  Eigen::Matrix3d axes;  ///< the box's directions, as columns
   Eigen::Vector3d half;  ///< half sides (m)
 
-  /// Half its width along a unit vector (m).
+  /// Half the width of the box along a unit vector (m).
   double reach(const Eigen::Vector3d& n) const { return half.dot((axes.transpose() * n).cwiseAbs()); }
 };
 
@@ -37,18 +37,19 @@ inline double placeRounding(const Eigen::Isometry3d& pose, const Eigen::Vector3d
 /// (ElementTree::finite() and merged()).
 bool isSound(const fcl::CollisionGeometryd& geometry);
 
-/// A view of a BVHModel of any bounding volume or of an OcTree; the geometry
-/// must outlive it. Allocates nothing but boxes in place of merged ones, which copies share.
+/// A view of a BVHModel of any bounding volume or of an OcTree; the geometry must outlive it. It allocates
+/// only the boxes that replace merged ones; copies share these boxes.
 class ElementTree {
  public:
   struct Node {
-    std::intptr_t id;  ///< of an element as FCL's `b1`, `b2` name it; else of the inner node
+    /// Of a leaf: the element's number as in FCL's `b1`, `b2`; otherwise the inner node's number.
+    std::intptr_t id;
     bool leaf;
-    const void* handle;  ///< a tree's node
+    const void* handle;  ///< the node of an octree; null for a mesh
     OrientedBox box;     ///< contains everything below the node, in the geometry's frame
   };
 
-  /// `known`: the caller knows that it is sound (isSound()).
+  /// `known`: the caller knows that the geometry is sound (isSound()).
   explicit ElementTree(const fcl::CollisionGeometryd& geometry, bool known = false);
 
   /// Whether the geometry is a mesh or a tree with anything in it.
@@ -56,8 +57,8 @@ class ElementTree {
   /// Whether all vertices are finite and below 1e150 m. FCL's boxes hide vertices that are not. Checks each
   /// vertex, even if no triangle uses it.
   bool finite() const;
-  /// How many corners a mesh has, and how far any of them reaches along `n` (geometry's frame, m), looking at
-  /// each; nothing is known of a tree.
+  /// corners(): number of a mesh's corners, 0 for a tree. reach(): how far any corner reaches along `n`
+  /// (geometry's frame, m); it looks at each corner. For a tree it is infinite.
   int corners() const;
   double reach(const Eigen::Vector3d& n) const;
   /// Whether FCL has merged the inner boxes from their children. All boxes were then replaced by new ones,
@@ -67,11 +68,12 @@ class ElementTree {
   /// wide.
   bool loose() const { return geometry_.getNodeType() == fcl::GEOM_OCTREE; }
   Node root() const;
-  /// Whether there is an element below: a tree's cells may all be free. Looks at cells until it finds one.
+  /// Whether there is an occupied element below the node: a tree's cells may all be free. Looks at cells
+  /// until it finds one.
   bool occupied(const Node& node) const;
-  /// The node's children but for cells that are free, at most eight; how many.
+  /// Fills `child` with the node's children, without free cells. Returns their number, at most eight.
   int children(const Node& node, std::array<Node, 8>& child) const;
-  /// A leaf as a shape, placed in the geometry's frame. False for a cell that is free.
+  /// The shape of a leaf, and its place in the geometry's frame. False for a free cell.
   bool element(const Node& leaf, Shape& shape, Eigen::Vector3d& place) const;
   /// Finds the element with this id that is within `off` (m) of `x` (geometry's frame).
   bool find(std::intptr_t id, const Eigen::Vector3d& x, double off, Shape& shape,
@@ -80,7 +82,8 @@ class ElementTree {
  private:
   const fcl::CollisionGeometryd& geometry_;
   bool any_ = false;
-  std::shared_ptr<const std::vector<Eigen::AlignedBox3d>> fitted_;  ///< for merged boxes, by FCL's index
+  /// Boxes in place of merged ones, by FCL's index of the node.
+  std::shared_ptr<const std::vector<Eigen::AlignedBox3d>> fitted_;
 };
 
 /// Trees of a pair's two geometries that the caller has made before; null: a query makes its own.

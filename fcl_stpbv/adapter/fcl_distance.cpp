@@ -23,12 +23,12 @@ using fcl::Transform3d;
 /// cheaper than GJK's last steps and than the choice of neighbours, so both are omitted.
 PairCache startFromFcl(const StpBvGeometry& a, const Transform3d& poseA, const StpBvGeometry& b,
                        const Transform3d& poseB) {
-  constexpr double kGap = 0.9;  // of the distance: any plane well between the two
+  constexpr double kGap = 0.9;  // share of the distance: any plane well between the hulls will do
   const PolyhedralWitness witness = polyhedralWitness(a.hull(), poseA, b.hull(), poseB, {}, kGap);
   return {witness.direction, {a.patchOf(witness.feature[0]), b.patchOf(witness.feature[1])}};
 }
 
-/// The same start from the exact witness, mapped in full, and counted.
+/// Starts from the exact polyhedral witness points, maps them in full and counts how good the mapping was.
 Distance countedDistance(const StpBvGeometry& a, const Transform3d& poseA, const StpBvGeometry& b,
                          const Transform3d& poseB, PairCache& start, MappingCounts& counts) {
   const PolyhedralWitness witness = polyhedralWitness(a.hull(), poseA, b.hull(), poseB);
@@ -39,7 +39,7 @@ Distance countedDistance(const StpBvGeometry& a, const Transform3d& poseA, const
   return found;
 }
 
-/// Two STP-BVs: from the last answer if there is one, else as the caller wants it.
+/// Distance of two STP-BVs. It starts from the last answer if there is one, otherwise as the caller wants.
 Distance smoothDistance(const StpBvGeometry& a, const Transform3d& poseA, const StpBvGeometry& b,
                         const Transform3d& poseB, const QueryContext& context) {
   PairCache start;
@@ -51,12 +51,12 @@ Distance smoothDistance(const StpBvGeometry& a, const Transform3d& poseA, const 
   return distance(a.volume(), poseA, b.volume(), poseB, &cache);
 }
 
-/// An STP-BV and anything else, in either order: the same query, so the same answer from the other side.
+/// Distance of an STP-BV and any other geometry. Both orders make the same query, so the answers agree.
 DistanceAnswer mixedDistance(const StpBvGeometry* a, const CollisionGeometryd& geometry1,
                              const Transform3d& pose1, const StpBvGeometry* b,
                              const CollisionGeometryd& geometry2, const Transform3d& pose2,
                              const QueryContext& context, const KnownTrees& trees) {
-  PairCache cache;  // of the STP-BV first
+  PairCache cache;  // with the STP-BV first
   if (context.cache) cache = *context.cache;
   if (!a) cache = cache.mirrored();
   Shape shape;
@@ -78,11 +78,11 @@ DistanceAnswer mixedDistance(const StpBvGeometry* a, const CollisionGeometryd& g
   if (answer.status == DistanceStatus::invalid) return answer;
   answer.element[a ? 1 : 0] = other.element[1];
   answer.runnerUp = other.runnerUp;
-  answer.continuous = isShape;  // of meshes and trees the nearest element switches
+  answer.continuous = isShape;  // the nearest element of a mesh or a tree switches
   return answer;
 }
 
-/// Neither an STP-BV: two simple shapes, or meshes and trees.
+/// Distance of two geometries without an STP-BV: two simple shapes, or meshes and trees.
 DistanceAnswer plainDistance(const CollisionGeometryd& geometry1, const Transform3d& pose1,
                              const CollisionGeometryd& geometry2, const Transform3d& pose2,
                              const QueryContext& context, const KnownTrees& trees) {
@@ -115,7 +115,7 @@ FCL_STPBV_VECTORIZED
 DistanceAnswer inFclTerms(const Distance& found, const Transform3d& pose1, const Transform3d& pose2) {
   DistanceAnswer answer;
   answer.status = found.status;
-  answer.distance = -kInfinity;  // of no answer: no comparison takes it for clear
+  answer.distance = -kInfinity;  // without an answer: no comparison takes the pair for clear
   if (found.status == DistanceStatus::invalid) return answer;
   answer.distance = found.distance;
   answer.lower = found.lower;
@@ -174,8 +174,8 @@ fcl::DistanceResultd toFclResult(const DistanceAnswer& answer) {
   return result;
 }
 
-// The request's flags say how FCL should compute and what it may leave out;
-// here all of it is exact and at hand.
+// The request's flags say how FCL should compute and what it may leave out. Here everything is exact and
+// available.
 double distance(const fcl::CollisionObjectd* object1, const fcl::CollisionObjectd* object2,
                 const fcl::DistanceRequestd& /*request*/, fcl::DistanceResultd& result) {
   result = toFclResult(distance(*object1, *object2));

@@ -124,7 +124,7 @@ DistanceAnswer distance(const fcl::CollisionGeometryd& geometry1, const fcl::Tra
                         const fcl::CollisionGeometryd& geometry2, const fcl::Transform3d& pose2,
                         const QueryContext& context = {});
 
-/// The same for two collision objects.
+/// distance() for two collision objects.
 DistanceAnswer distance(const fcl::CollisionObjectd& object1, const fcl::CollisionObjectd& object2,
                         const QueryContext& context = {});
 
@@ -143,7 +143,7 @@ Distance inCoreTerms(const DistanceAnswer& answer);
 /// is -1, as in FCL.
 double distance(const fcl::CollisionObjectd* object1, const fcl::CollisionObjectd* object2,
                 const fcl::DistanceRequestd& request, fcl::DistanceResultd& result);
-/// The same for two geometries at their poses.
+/// The replacement of `fcl::distance` for two geometries at their poses.
 double distance(const fcl::CollisionGeometryd* geometry1, const fcl::Transform3d& pose1,
                 const fcl::CollisionGeometryd* geometry2, const fcl::Transform3d& pose2,
                 const fcl::DistanceRequestd& request, fcl::DistanceResultd& result);

@@ -21,7 +21,7 @@
 #define NDEBUG
 #define FCL_STPBV_RESTORE_ASSERTIONS
 #endif
-#include <cassert>  // defines assert anew each time
+#include <cassert>  // each inclusion defines assert anew
 
 // clang-format off
 #include <fcl/narrowphase/detail/convexity_based_algorithm/gjk_libccd.h>

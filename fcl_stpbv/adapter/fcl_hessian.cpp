@@ -15,23 +15,25 @@ namespace {
 using namespace detail;
 using Eigen::Vector3d;
 
-/// The body that an answer is about in the frame of its geometry: a simple
-/// shape, or an element of a mesh or a tree.
+/// The body that an answer is about, in the frame of its geometry: a simple shape, or an element of a mesh or
+/// a tree.
 class OtherBody {
  public:
-  /// `point`: of the answer, in the world.
+  /// `point`: the answer's witness point on this body (world, m).
   OtherBody(const fcl::CollisionGeometryd& geometry, fcl::Transform3d pose, std::intptr_t element,
             const Vector3d& point) {
     Vector3d place;
     known_ = shapeOf(geometry, shape_);
     if (known_ || !makeRigid(pose)) return;
     const Vector3d x = pose.linear().transpose() * (point - pose.translation());
-    // More than rounding: each cell has its own id, so that too much finds no other one.
+    // This tolerance is larger than rounding. That does no harm, because each cell has its own id: no other
+    // cell is found.
     const double off = placeRounding(pose, x) + 1e-12 * point.lpNorm<1>();
     if (!ElementTree(geometry, /*known=*/true).find(element, x, off, shape_, place)) return;
     known_ = true;
     if (shape_.kind != ShapeKind::box) return;
-    // A cell away from its tree's origin: its corners, so that both turn about the same point.
+    // A cell is away from its tree's origin. Its corners take its place, so that the shape rotates about the
+    // same point as the tree.
     for (int i = 0; i < 8; ++i)
       corner_[static_cast<std::size_t>(i)] =
           place + Vector3d(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1).cwiseProduct(shape_.size);

@@ -16,7 +16,7 @@ bool hessian(const fcl::CollisionGeometryd& geometry1, const fcl::Transform3d& p
              const fcl::CollisionGeometryd& geometry2, const fcl::Transform3d& pose2, const DistanceAnswer& d,
              DistanceHessian& result);
 
-/// The same for two collision objects.
+/// hessian() for two collision objects.
 bool hessian(const fcl::CollisionObjectd& object1, const fcl::CollisionObjectd& object2,
              const DistanceAnswer& d, DistanceHessian& result);
 

@@ -21,7 +21,8 @@ using Eigen::Isometry3d;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-// A normal this far past a region boundary is on it: both patches agree there, and neither mapping is wrong.
+// A normal this far past a region boundary still counts as on it: both patches agree there, and neither
+// mapping is wrong.
 constexpr double kBothAgree = 1e-12;
 
 /// Normal at the patch's point nearest to `x`: the widest one of the patch and a point (docs/theory.md, 5).
@@ -38,7 +39,7 @@ int chooseNeighbour(const StpBv& volume, int patch, const Vector3d& x) {
   return over.past > kBothAgree * to.length ? over.neighbour : patch;
 }
 
-/// The core's point nearest to `x` as far as this patch knows.
+/// The patch's core point nearest to `x`, even if that is outside the patch's region.
 Vector3d nearestCorePoint(const StpBv& volume, int patch, const Vector3d& x) {
   const PosedPatch posed = posedPatch(volume, patch);
   return unpack(posed.anchor + viewCore(posed, towards(volume, patch, x).unit()).offset);
@@ -56,7 +57,7 @@ bool areNeighbours(const StpBv& volume, int p, int q) {
   return contains(volume.faces()[static_cast<std::size_t>(q - volume.facePatch(0))], p);
 }
 
-/// 0: the mapped patch owns the normal; 1: a neighbour does; 2: a farther one.
+/// 0 if the mapped patch owns the normal, 1 if a neighbour does, 2 if a patch farther away does.
 int stepsAway(const StpBv& volume, int mapped, int answer, const Vector3d& normal) {
   if (mapped == answer || volume.outside(mapped, normal) <= kBothAgree) return 0;
   return areNeighbours(volume, mapped, answer) ? 1 : 2;
@@ -74,8 +75,8 @@ std::array<int, 2> mapFeatures(const StpBvGeometry& a, const Isometry3d& poseA, 
   const Vector3d aInB = poseB.linear().transpose() * (witness.point[0] - poseB.translation());
   const int p = chooseNeighbour(a.volume(), a.patchOf(witness.feature[0]), bInA);
   const int q = chooseNeighbour(b.volume(), b.patchOf(witness.feature[1]), aInB);
-  // The same test once more with the smooth points these patches give in place of the polyhedral ones: it
-  // halves the wrong choices near contact, and far from it leaves one in ten of them (docs/fcl.md).
+  // The same test once more, with the smooth points of these patches in place of the polyhedral ones. It
+  // halves the wrong choices near contact. Far from contact it leaves one in ten of them (docs/fcl.md).
   const Vector3d smoothA = nearestCorePoint(a.volume(), p, bInA),
                  smoothB = nearestCorePoint(b.volume(), q, aInB);
   return {chooseNeighbour(a.volume(), p, toB.transpose() * (smoothB - offset)),

@@ -15,11 +15,12 @@ namespace fcl_stpbv::detail {
 std::shared_ptr<const std::vector<fcl::Vector3d>> fclVertices(const HullGraph& hull,
                                                               const std::vector<Eigen::Vector3d>& cloud);
 
-/// The hull's faces in the format of `fcl::Convexd`: each as its number of vertices
-/// followed by them, counter-clockwise from outside.
+/// The hull's faces in the format of `fcl::Convexd`: for each face the number of its vertices, then the
+/// vertices, counter-clockwise seen from outside.
 std::shared_ptr<const std::vector<int>> fclFaces(const HullGraph& hull);
 
-/// The convex hull of a cloud (m), flat: a body for a pair whose other one is smooth. May be degenerate.
+/// The convex hull of a cloud (m), with flat faces. It is for pairs whose other body is smooth. May be
+/// degenerate.
 /// @throws Error for a cloud that is empty or not finite.
 std::shared_ptr<fcl::Convexd> hullGeometry(const std::vector<Eigen::Vector3d>& cloud);
 

@@ -24,13 +24,13 @@ inline OrientedBox boxAround(const fcl::RSSd& bv) {
 inline OrientedBox boxAround(const fcl::OBBRSSd& bv) { return boxAround(bv.obb); }
 inline OrientedBox boxAround(const fcl::kIOSd& bv) { return boxAround(bv.obb); }
 template <std::size_t N>
-OrientedBox boxAround(const fcl::KDOP<double, N>& bv) {  // its first three slabs are the axes'
+OrientedBox boxAround(const fcl::KDOP<double, N>& bv) {  // the first three slabs are those of the axes
   const Eigen::Vector3d low(bv.dist(0), bv.dist(1), bv.dist(2));
   const Eigen::Vector3d high(bv.dist(N / 2), bv.dist(N / 2 + 1), bv.dist(N / 2 + 2));
   return {0.5 * (low + high), Eigen::Matrix3d::Identity(), 0.5 * (high - low)};
 }
 
-/// The bounding volume that boxAround() takes the box from.
+/// The bounding volume from which boxAround() takes the box.
 template <typename BV>
 const BV& boxed(const BV& bv) {
   return bv;
@@ -38,7 +38,7 @@ const BV& boxed(const BV& bv) {
 inline const fcl::OBBd& boxed(const fcl::OBBRSSd& bv) { return bv.obb; }
 inline const fcl::OBBd& boxed(const fcl::kIOSd& bv) { return bv.obb; }
 
-constexpr double kSameBox = 1e-9;  // of the size
+constexpr double kSameBox = 1e-9;  // share of the size
 
 /// Whether FCL may have merged a bounding volume from two others, in a way that may leave parts of them out
 /// (FCL 0.7, RSS-inl.h, OBB-inl.h). It tests a property that all such volumes have and few others do. OBB:
@@ -57,17 +57,17 @@ inline bool mayBeMerged(const fcl::RSSd& both, const fcl::RSSd& first, const fcl
 }
 template <typename BV>
 bool mayBeMerged(const BV&, const BV&, const BV&) {
-  return false;  // AABB and KDOP merge well
+  return false;  // merged AABBs and KDOPs contain both parts
 }
 
-/// Whether its axes are orthonormal. For a triangle whose corners lie on a line, FCL's fit (after vertices
-/// have moved) makes zero or skew axes, and a box at a wrong place.
+/// Whether the box's axes are orthonormal. For a triangle whose corners lie on a line, FCL's fit (after
+/// vertices have moved) makes zero or skew axes, and a box at a wrong place.
 inline bool hasAxes(const OrientedBox& box) {
   return (box.axes.transpose() * box.axes - Eigen::Matrix3d::Identity()).lpNorm<1>() <= kSameBox;
 }
 
-/// Whether its elements are points. A cloud that was begun with space for triangles has an empty array of
-/// triangles.
+/// Whether the mesh's elements are points. A cloud that was begun with space for triangles has an empty array
+/// of triangles.
 template <typename BV>
 bool isCloud(const fcl::BVHModel<BV>& mesh) {
   return mesh.num_tris == 0;
@@ -81,7 +81,7 @@ void forCorners(const fcl::BVHModel<BV>& mesh, int element, Action&& action) {
   for (const std::size_t i : {t[0], t[1], t[2]}) action(mesh.vertices[i]);
 }
 
-/// Whether an element is in a box, to the rounding of its fit.
+/// Whether an element is in a box, up to the rounding of the box's fit.
 template <typename BV>
 bool holdsElement(const fcl::BVHModel<BV>& mesh, int element, const OrientedBox& box) {
   const double rounding = kSameBox * (box.half.sum() + box.centre.lpNorm<1>());
@@ -93,7 +93,7 @@ bool holdsElement(const fcl::BVHModel<BV>& mesh, int element, const OrientedBox&
   return holds;
 }
 
-/// Whether a box is the one that FCL makes of its two parts'.
+/// Whether a box is the one that FCL makes by merging the boxes of its two parts.
 template <typename BV>
 bool isMerged(const BV& both, const BV& first, const BV& second) {
   const OrientedBox own = boxAround(both), made = boxAround(boxed(first) + boxed(second));
@@ -102,9 +102,9 @@ bool isMerged(const BV& both, const BV& first, const BV& second) {
          (own.axes - made.axes).lpNorm<1>() <= kSameBox;
 }
 
-/// Whether all boxes on one path down look merged from their parts; a single fitted box may do so by chance.
-/// A box without proper axes decides at once. For a single element its own box is tested, because FCL merges
-/// the box before and the box after an update.
+/// Whether all boxes on one path down look merged from their parts. A single fitted box may look so by
+/// chance. A box without proper axes decides at once. For a single element its own box is tested, because FCL
+/// merges the box before and the box after an update.
 template <typename BV, typename LooksMerged>
 bool lookMerged(const fcl::BVHModel<BV>& mesh, const LooksMerged& looksMerged) {
   for (int index = 0;; index = mesh.getBV(index).leftChild()) {
@@ -137,7 +137,8 @@ bool hasMergedBoxes(const fcl::BVHModel<BV>& mesh) {
   return hasStrayBoxes(mesh) || (lookMerged(mesh, maybe) && lookMerged(mesh, isMerged<BV>));
 }
 
-/// Boxes around what is below each node. FCL numbers nodes after their parents.
+/// Boxes around everything below each node. Children come first, because FCL numbers nodes after their
+/// parents.
 template <typename BV>
 std::vector<Eigen::AlignedBox3d> fittedBoxes(const fcl::BVHModel<BV>& mesh) {
   std::vector<Eigen::AlignedBox3d> box(static_cast<std::size_t>(mesh.getNumBVs()));

@@ -33,19 +33,19 @@ class MotionSearch {
     hit_ = std::numeric_limits<double>::infinity();
     lists_.resize(static_cast<std::size_t>(pairs));
     for (std::size_t i = 0; i < lists_.size(); ++i) lists_[i] = static_cast<int>(i);
-    // A contact that was found is final, even if covers of times around it include it.
+    // A contact that was found is final, even if the covers of other times include it.
     if (pairs > 0 && !visit(0, 1, 0, lists_.size()) && hit_ <= 1)
       finish(MotionVerdict::contact, hit_, hit_, hitPair_);
     return result_;
   }
 
  private:
-  // Below it a time is not cut: bodies move by rounding.
+  // A shorter time is not divided: in it bodies move only by rounding.
   static constexpr double kFinest = 1e-12;
-  // From this time on, the end of an interval is examined too, because a contact may begin there.
+  // In an interval up to this length the end is examined, too, because a contact may begin there.
   static constexpr double kEnd = 1e-6;
 
-  // The pairs lists_[first, last) between `a` and `b`. True where the search is over.
+  // Searches the time from `a` to `b` for the pairs lists_[first, last). True if the search is over.
   bool visit(double a, double b, std::size_t first, std::size_t last) {
     b = std::min(b, hit_);
     if (a >= b) return false;
@@ -60,7 +60,8 @@ class MotionSearch {
     Cover least{half, half};
     const std::size_t early = lists_.size();
     scene_.place(middle);
-    std::size_t late = early;  // later ones behind the earlier ones, once all are known
+    // Pairs for the later half follow those for the earlier half, once all are known.
+    std::size_t late = early;
     later_.clear();
     for (std::size_t i = first; i < last; ++i) {
       const int pair = lists_[i];
@@ -77,8 +78,8 @@ class MotionSearch {
     }
     lists_.insert(lists_.end(), later_.begin(), later_.end());
     const std::size_t end = lists_.size();
-    // Only an interval that was examined is called undecided: two covers may leave an interval as short as
-    // this between them that is free.
+    // Only an interval that was examined is called undecided, because two covers may leave a free interval as
+    // short as this between them.
     if (end > early && b - a <= kFinest) return finishSoonAfter(a, b, early, end);
     bool over = late > early && visit(a, middle - least.before, early, late);
     if (!over && end > late) over = visit(middle + least.after, b, late, end);
@@ -86,7 +87,7 @@ class MotionSearch {
     return over;
   }
 
-  // The first of the pairs that is in contact at the time, or -1.
+  // The first of the pairs lists_[first, last) that is in contact at the time, or -1.
   int inContact(double time, std::size_t first, std::size_t last) {
     scene_.place(time);
     for (std::size_t i = first; i < last; ++i) {
@@ -97,7 +98,8 @@ class MotionSearch {
     return -1;
   }
 
-  // From `a` on the distance is the margin to rounding. Within the tolerance it may be a clear contact.
+  // From `a` on the distance equals the margin up to rounding. Within the tolerance it may become a clear
+  // contact.
   bool finishSoonAfter(double a, double b, std::size_t first, std::size_t last) {
     const double end = std::min(1.0, a + request_.tolerance);
     if (hit_ <= end) return finish(MotionVerdict::contact, a, hit_, hitPair_);
@@ -120,8 +122,8 @@ class MotionSearch {
   Scene& scene_;
   MotionRequest request_;
   MotionBracket result_;
-  long most_ = 0;   // queries
-  double hit_ = 0;  // a contact, the earliest known
+  long most_ = 0;   // limit on the number of queries
+  double hit_ = 0;  // time of the earliest contact known
   int hitPair_ = -1;
   std::vector<int> lists_, later_;
 };

@@ -12,7 +12,8 @@ namespace fcl_stpbv::detail {
 /// The present velocity of a body, per unit of time, relative to the frame to which separating planes are
 /// fixed; world axes.
 struct BodyVelocity {
-  Eigen::Vector3d linear{0, 0, 0};  ///< of the point `about` (planeCover), as if the body carried it
+  /// Of the point `about` (see planeCover()), as if it were fixed to the body.
+  Eigen::Vector3d linear{0, 0, 0};
   Eigen::Vector3d angular{0, 0, 0};
   double acceleration = 0;  ///< upper bound on the acceleration of any point of the body, at any time
   /// `angular` never changes its direction, so all accelerations are perpendicular to it.
@@ -22,7 +23,7 @@ struct BodyVelocity {
   double accelerationAlong(const Eigen::Vector3d& n) const {
     const double turn = angular.norm();
     if (!steady || !(turn > 0)) return acceleration;
-    constexpr double kRounding = 4 * std::numeric_limits<double>::epsilon();  // of the sine
+    constexpr double kRounding = 4 * std::numeric_limits<double>::epsilon();  // rounding of the sine
     return acceleration * std::min(1.0, n.cross(angular).norm() / turn + kRounding);
   }
 };
@@ -37,8 +38,8 @@ inline Cover longer(const Cover& p, const Cover& q) {
   return {std::max(p.before, q.before), std::max(p.after, q.after)};
 }
 
-/// The longest time up to `most` for which `gap + rate t - acceleration t^2 / 2`
-/// stays above 0 with the rate at most 0. Of what is no number: 0.
+/// The longest time up to `most` for which `gap + rate t - acceleration t^2 / 2` stays above 0. A rate above
+/// 0 counts as 0. If the rate or the acceleration is NaN, the time is 0.
 inline double timeAbove(double gap, double rate, double acceleration, double most) {
   if (!(gap > 0) || std::isnan(rate) || std::isnan(acceleration)) return 0;
   const double k = std::min(rate, 0.0);
@@ -63,7 +64,7 @@ Cover planeCover(const Eigen::Vector3d& n, double gap, const SupportA& supportA,
   const double along = n.dot(b.linear - a.linear),
                acceleration = a.accelerationAlong(n) + b.accelerationAlong(n);
   const double now = -supportB(Eigen::Vector3d(-n)) - supportA(n);
-  // What the velocities alone make of the gap after a time, against now.
+  // Mean rate over the time t at which the velocities alone change the gap.
   const auto rate = [&](double t) {
     const double then =
         t * along - supportB(Eigen::Vector3d(-n - t * turnB)) - supportA(Eigen::Vector3d(n + t * turnA));
@@ -72,7 +73,7 @@ Cover planeCover(const Eigen::Vector3d& n, double gap, const SupportA& supportA,
   const auto cover = [&](double sign) {
     const double first = timeAbove(gap, rate(sign * most), acceleration, most);
     if (first >= most || first <= 0) return first;
-    // Once more over a shorter time: the bound bends down with it.
+    // Once more over a shorter time. The bound is concave in time, so its mean rate is better there.
     const double shorter = std::min(most, 2 * first);
     return std::max(first, timeAbove(gap, rate(sign * shorter), acceleration, shorter));
   };

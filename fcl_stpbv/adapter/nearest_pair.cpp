@@ -25,7 +25,7 @@ namespace {
 using Eigen::Vector3d;
 using Part = PosedGeometry::Part;
 
-/// The first two elements on the way down to near boxes.
+/// Visitor of descend() that takes the first two elements on the way down to near boxes.
 struct FirstElements {
   Part a, b;
   double bound(const Part& partA, const Part& partB) const {
@@ -42,16 +42,16 @@ class NearestElements {
  public:
   NearestElements(const PosedPair& pair, PairCache* cache)
       : pair_(pair), surfaces_(pair.areSurfaces()), cache_(cache) {
-    constexpr long kLeast = 100, kPart = 16;  // a look takes as long as some twenty corners
+    constexpr long kLeast = 100, kPart = 16;  // one gap of two boxes takes as long as some twenty corners
     if (surfaces_) patience_ = kLeast + (pair.first.tree().corners() + pair.second.tree().corners()) / kPart;
   }
 
   const ElementsDistance& result() const { return result_; }
 
-  /// Whether there is a nearest pair, and its element of the first geometry.
+  /// any(): whether a nearest pair is known. first(): its element of the first geometry.
   bool any() const { return result_.found.status != DistanceStatus::invalid; }
   const Part& first() const { return first_; }
-  /// Whether no element came up, once both hierarchies have been gone through: all cells are free.
+  /// After both hierarchies have been gone through: whether no element was found, because all cells are free.
   bool foundNothing() const { return !any() && !unknown_; }
 
   double bound(const Part& a, const Part& b) {
@@ -70,13 +70,14 @@ class NearestElements {
     }
     return skip(most) ? most : std::max(most, gapOf(pair_, a, b, result_.runnerUp));
   }
-  // The second nearest pair is wanted too, but where two surfaces meet.
+  // The second nearest pair is wanted, too. If two surfaces meet, the search ends at once.
   bool skip(double bound) const { return any() && (noneNearer_ || bound >= result_.runnerUp); }
 
   bool leaves(const Part& leafA, const Part& leafB) {
     ConvexBody a, b;
-    if (any() && result_.element == std::array{leafA.node.id, leafB.node.id}) return false;  // known
-    if (!pair_.first.body(leafA, a) || !pair_.second.body(leafB, b)) return false;           // a free cell
+    // This pair is solved already.
+    if (any() && result_.element == std::array{leafA.node.id, leafB.node.id}) return false;
+    if (!pair_.first.body(leafA, a) || !pair_.second.body(leafB, b)) return false;  // a free cell
     if (skip(gapAlongPlanes(leafA, a, leafB, b))) return false;
     PairCache start;
     if (any())
@@ -85,7 +86,7 @@ class NearestElements {
       start = *cache_;
     const Distance found = distance(a, b, &start);
     ++result_.solved;
-    if (found.status == DistanceStatus::invalid) {  // an element that is no body: nothing is known
+    if (found.status == DistanceStatus::invalid) {  // an element is no valid body: nothing is known
       result_ = {};
       return unknown_ = true;
     }
@@ -114,14 +115,17 @@ class NearestElements {
   }
 
  private:
-  // Two parallel planes that touch the elements of an answer, for all others.
+  // Two parallel planes that touch the elements of an answer. They bound the distances of all other elements.
   struct Plane {
-    Vector3d n{0, 0, 0};            // from the first geometry to the second, in the first one's frame
-    Vector3d world{0, 0, 0};        // the same in the world
-    double reach = 0, support = 0;  // of the one that is a body, if one is: from its box's centre, its origin
+    Vector3d n{0, 0, 0};      // unit normal from the first geometry to the second, in the first one's frame
+    Vector3d world{0, 0, 0};  // the normal in the world
+    // If one geometry is a body: how far it reaches along the normal, from its box's centre and from its
+    // origin.
+    double reach = 0, support = 0;
   };
 
-  // Bounds of the least of all: an answer that is not exact may be the lowest, whatever it says itself.
+  // Bounds on the least distance. An answer that is not exact may be the least, even if its own `distance` is
+  // not.
   void bounds(const Distance& found) {
     if (found.lower < lower_) exact_ = found.status == DistanceStatus::exact;
     lower_ = std::min(lower_, found.lower);
@@ -144,8 +148,8 @@ class NearestElements {
     return most;
   }
 
-  // Whether a gap along the best answer's normal is as wide as the answer: then no elements are nearer, and
-  // others may be as near.
+  // Tests whether a gap along the best answer's normal is as wide as the answer. If it is, no elements are
+  // nearer, but others may be as near.
   void tryAllCorners() {
     patience_ *= 2;
     Distance& best = result_.found;
@@ -161,14 +165,14 @@ class NearestElements {
     best.lower = lower_ = std::min(lower_, gap);
   }
 
-  // One plane of each direction is kept; that of the best answer is the first.
+  // Keeps one plane of each direction. The plane of the best answer is the first.
   void keepPlane(const Part& a, const Part& b, const Vector3d& world, bool best) {
     constexpr double kAlike = 0.999;  // cosine of 2.6 degrees
     if (world.isZero(0) || pair_.first.unbounded() || pair_.second.unbounded()) return;
     const Vector3d n = pair_.toWorld.transpose() * world;
     std::size_t place = 0;
     if (!best) {
-      if (surfaces_) return;  // apart, where one normal tells most
+      if (surfaces_) return;  // for surfaces that are apart, one normal is enough for most bounds
       for (std::size_t i = 0; i < planes_; ++i)
         if (plane_[i].n.dot(n) > kAlike) return;
       place = planes_ < plane_.size() ? planes_ : oldest_;
@@ -180,8 +184,8 @@ class NearestElements {
     if (b.body) plane.reach = b.reach(-n), plane.support = b.body->support(-world);
   }
 
-  // Surfaces overlap by nothing: 0, at a point of both elements. Elements whose depth is not known to be one
-  // may be apart by what is left open.
+  // Surfaces have no depth, so the distance is 0, at a point of both elements. If it is not proven that the
+  // two elements meet, they may be apart by up to `upper_`.
   void meet(const ConvexBody& a, const ConvexBody& b) {
     Distance& found = result_.found;
     const double rounding =
@@ -200,7 +204,7 @@ class NearestElements {
   ElementsDistance result_;
   Part first_;
   double lower_ = kInfinity, upper_ = kInfinity;
-  bool exact_ = false;  // whether the pair that the lower bound comes from is
+  bool exact_ = false;  // whether the answer that gave the lower bound is exact
   std::array<Plane, 16> plane_;
   std::size_t planes_ = 0, oldest_ = 1;
   PairCache* cache_;
@@ -208,7 +212,7 @@ class NearestElements {
   bool noneNearer_ = false, unknown_ = false;
 };
 
-/// As far as numbers go, and FCL's own value for this.
+/// The answer if there is no element: the largest double, which is FCL's own value for this.
 ElementsDistance nothingThere() {
   ElementsDistance answer;
   answer.found.status = DistanceStatus::exact;
@@ -216,7 +220,7 @@ ElementsDistance nothingThere() {
   return answer;
 }
 
-/// Both hierarchies from their roots, two surfaces after a start from near elements.
+/// Searches both hierarchies from their roots. Two surfaces first start from near elements.
 void search(const PosedPair& pair, NearestElements& nearest) {
   const Part a = pair.first.whole(), b = pair.second.whole();
   if (pair.areSurfaces()) {

@@ -12,14 +12,14 @@
 
 namespace fcl_stpbv::detail {
 
-/// The distance, and the elements of meshes and octrees between which it is.
+/// The distance, and the elements of meshes and octrees that have this distance.
 struct ElementsDistance {
   Distance found;
   std::array<std::intptr_t, 2> element{-1, -1};  ///< triangles or cells, as FCL numbers them; -1 for a shape
   /// Distance of the second nearest pair of elements (m); for two surfaces only a lower bound on it.
   double runnerUp = std::numeric_limits<double>::infinity();
-  int solved = 0;  ///< pairs of elements whose distance was computed, a measure of the work
-  long looks = 0;  ///< for two meshes: pairs of boxes whose gap was computed
+  int solved = 0;  ///< number of pairs of elements whose distance was computed, a measure of the work
+  long looks = 0;  ///< for two meshes: number of pairs of boxes whose gap was computed
 };
 
 /// For a mesh or an octree against an STP-BV or a shape: the signed distance, the least over the elements.

@@ -1,10 +1,10 @@
 // FCL's witness points with a stopping criterion that proves convergence.
 //
-// 1. A first supporting plane from the start's direction. If it separates the
-//    hulls, FCL's test would end there too.
-// 2. Else FCL's own GJK intersection test (fcl_gjk.h) leads to a simplex.
+// 1. Compute a first supporting plane from the start's direction. If it separates the hulls, FCL's test would
+//    end there, too.
+// 2. Otherwise FCL's own GJK intersection test (fcl_gjk.h) leads to a simplex.
 // 3. This library's GJK goes on from there until the duality gap is small enough (convex/gjk.h).
-// 4. The simplex's vertices name the features that hold the witness points.
+// 4. The simplex's vertices name the features on which the witness points lie.
 #include "fcl_stpbv/adapter/polyhedral_witness.h"
 
 #include <algorithm>
@@ -21,15 +21,18 @@ namespace {
 
 using Eigen::Vector3d;
 
-// GJK on polytopes ends after finitely many steps, in practice some ten; a hundred means rounding has won.
+// GJK on polytopes ends after finitely many steps, in practice about ten. A hundred steps mean that rounding
+// prevents the end.
 constexpr int kMaxSteps = 100;
-// Stop where the gap is at the rounding of support points of about 1, a few times 2.2e-16.
+// The gap at which to stop: the rounding of support points, which are about 1 in size. It is a few times
+// 2.2e-16.
 constexpr double kGapTolerance = 1e-15;
-// A corner of smaller weight does not hold the witness point: it is the
-// rounding of a point on a smaller feature.
+// A corner with a smaller weight does not count: the witness point lies on a smaller feature, and the weight
+// is rounding.
 constexpr double kMinWeight = 1e-12;
 
-/// FCL's intersection test from the first direction; its simplex with the vertices behind each corner.
+/// Runs FCL's intersection test from the first direction. Returns its simplex, with the hulls' vertices of
+/// each corner.
 Simplex<HullCorner> runFclGjk(PosedHulls& pair) {
   ccd_t ccd;
   CCD_INIT(&ccd);
@@ -38,7 +41,7 @@ Simplex<HullCorner> runFclGjk(PosedHulls& pair) {
   ccd.first_dir = &PosedHulls::ccdFirstDirection;
   ccd.max_iterations = kMaxSteps / 2;
   ccd_simplex_t found;
-  // The verdict it returns rests on absolute tolerances; the caller's own loop decides from the simplex.
+  // The returned verdict depends on absolute tolerances. The caller's own loop decides from the simplex.
   fcl::detail::libccd_extension::__ccdGJK(&pair, &pair, &ccd, &found);
 
   Simplex<HullCorner> simplex;
@@ -50,7 +53,8 @@ Simplex<HullCorner> runFclGjk(PosedHulls& pair) {
   return simplex;
 }
 
-/// The distinct vertices of A (0) or B (1) in the simplex, heaviest first; how many.
+/// The distinct vertices of A (0) or B (1) in the simplex, those with the largest weights first. Returns
+/// their number.
 int verticesOf(const Simplex<HullCorner>& s, std::size_t body, std::array<int, 3>& out) {
   std::array<double, 3> weight{};
   int count = 0;
@@ -88,7 +92,7 @@ PolyhedralWitness polyhedralWitness(const HullGraph& a, const Eigen::Isometry3d&
   n.normalize();
   pair.setFirstDirection(n);
 
-  // Where the first plane separates the hulls already, FCL's intersection test would end at that same point.
+  // If the first plane already separates the hulls, FCL's intersection test would end at that same point.
   Simplex<HullCorner> first;
   first.add(pair.support(n));
   if (!(first.corner[0].gap > 0)) first = runFclGjk(pair);

@@ -10,25 +10,29 @@ namespace fcl_stpbv::detail {
 
 /// Warm start: the result of an earlier call for the same pair, or nothing.
 struct WitnessStart {
-  Eigen::Vector3d direction{0, 0, 0};  ///< from A to B, world frame; zero: centre to centre
-  std::array<int, 2> vertex{-1, -1};   ///< hull vertices to climb from; -1: from the table of directions
+  /// From A to B, world frame; zero: from centre to centre.
+  Eigen::Vector3d direction{0, 0, 0};
+  /// Hull vertices from which to climb; -1: take them from the table of directions.
+  std::array<int, 2> vertex{-1, -1};
 };
 
 /// Closest points of two convex hulls and the features that hold them. World frame, metres.
 struct PolyhedralWitness {
   enum class Verdict {
     separated,    ///< a plane between the hulls was found; everything below is filled
-    overlapping,  ///< the hulls touch or overlap: distance 0, and only `direction` says something, as a guess
-    failed,       ///< not finite, or not decided within the cap on iterations; `lower` and `upper` still hold
+    overlapping,  ///< the hulls touch or overlap: distance 0; of the rest only `direction` is set, to a guess
+    failed,  ///< not finite, or not decided within the limit on iterations; `lower` and `upper` still hold
   };
   Verdict verdict = Verdict::failed;
-  double lower = 0;                    ///< certified: the gap between two supporting planes
-  double upper = 0;                    ///< certified: the distance of two points
+  double lower = 0;                    ///< certified lower bound: the gap between two supporting planes
+  double upper = 0;                    ///< certified upper bound: the distance of two points
   Eigen::Vector3d direction{0, 0, 0};  ///< unit, from A to B
   std::array<Eigen::Vector3d, 2> point{Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(0, 0, 0)};
-  std::array<HullFeature, 2> feature;          ///< what each point lies on
-  std::array<std::array<int, 3>, 2> vertices;  ///< hull vertices holding it, heaviest first; -1 past the last
-  int supports = 0;                            ///< support points computed, the work done
+  /// The feature on which each point lies.
+  std::array<HullFeature, 2> feature;
+  /// Vertices of each feature, the one with the largest weight first; -1 in unused places.
+  std::array<std::array<int, 3>, 2> vertices;
+  int supports = 0;  ///< number of support points computed, a measure of the work
 
   WitnessStart start() const { return {direction, {vertices[0][0], vertices[1][0]}}; }
 };

@@ -32,10 +32,10 @@ Isometry3d between(const Isometry3d& pose1, const Isometry3d& pose2) {
   return result;
 }
 
-constexpr double kBoxRounding = 1e-14;  // of the size: of a gap between two parts
+constexpr double kBoxRounding = 1e-14;  // rounding of a gap between two parts, as a share of their size
 
-/// The gap of a half space or a plane, which has no box, from its normal. `place` has its position and its
-/// axes.
+/// The gap between a part and a half space or plane, which has no box, along the normal of the latter.
+/// `place` gives its position and axes.
 double gapOfFlat(const Shape& flat, const OrientedBox& place, const PosedGeometry::Part& part) {
   const Vector3d n = place.axes * flat.normal;
   const double height = n.dot(part.box.centre - place.centre);
@@ -43,7 +43,8 @@ double gapOfFlat(const Shape& flat, const OrientedBox& place, const PosedGeometr
          kBoxRounding * (place.centre.lpNorm<1>() + part.coordinates);
 }
 
-/// How far two boxes of the same axes are apart, or how deep in each other, by their gaps along these.
+/// Distance of two boxes with the same axes, from their gaps along these axes. If the boxes overlap: the
+/// largest gap, which is below 0.
 double apartBy(const Vector3d& gap) {
   const double most = gap.maxCoeff();
   return most > 0.0 ? gap.cwiseMax(0.0).norm() : most;
@@ -60,7 +61,7 @@ double gapAlongAxes(const PosedGeometry::Part& a, const PosedGeometry::Part& b, 
   return apartBy(gap);
 }
 
-/// The box of these axes around what reaches so far from `place`.
+/// The box with these axes around a body. `reach(d)` is how far the body reaches from `place` along `d`.
 template <typename Reach>
 OrientedBox boxAlong(const Matrix3d& axes, const Vector3d& place, const Reach& reach) {
   OrientedBox box{place, axes, {0, 0, 0}};
@@ -73,8 +74,8 @@ OrientedBox boxAlong(const Matrix3d& axes, const Vector3d& place, const Reach& r
   return box;
 }
 
-/// How far a body's box is from a cell of the same axes, or how deep in it. `inside`: the box's centre is in
-/// the cell, which hardly any plane then keeps from the body.
+/// Distance of a body's box from a cell with the same axes; below 0 if they overlap. `inside` becomes whether
+/// the box's centre is in the cell. Hardly any plane then separates the cell from the body.
 double gapFromCell(const OrientedBox& body, const OrientedBox& cell, bool& inside) {
   const Vector3d off = (cell.axes.transpose() * (body.centre - cell.centre)).cwiseAbs() - cell.half;
   inside = off.maxCoeff() <= 0.0;

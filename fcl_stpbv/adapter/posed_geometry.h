@@ -25,8 +25,8 @@ struct ConvexBody {
   double rounding = 0;  ///< rounding error of its position (m), for a cell of an octree at a pose
 
   bool unbounded() const { return !volume && shape.unbounded(); }
-  /// Height of the supporting plane with the world's unit normal `n` above the body's origin (m). An STP-BV
-  /// looks for its patch from `hint` on.
+  /// Height of the supporting plane with the world's unit normal `n` above the body's origin (m). For an
+  /// STP-BV the search for the patch starts at `hint`.
   double support(const Eigen::Vector3d& n, int hint = -1) const {
     return localSupport(pose.linear().transpose() * n, hint);
   }
@@ -38,13 +38,13 @@ struct ConvexBody {
     const double length = d.norm();
     return length * support(d / length, hint) + d.dot(pose.translation() - about);
   }
-  /// The same as support() along a unit vector `m` of the body's own frame.
+  /// support() along a unit vector `m` of the body's own frame.
   double localSupport(const Eigen::Vector3d& m, int hint = -1) const {
     return volume ? volume->support(m, hint) : m.dot(shape.support(m)) + shape.margin;
   }
-  /// Bound on how far the support function is off, beyond its rounding (m).
+  /// Bound on the error of the support function, beyond its rounding (m).
   double supportError() const { return volume ? volume->tables().supportError : 0.0; }
-  /// Bound on its coordinates, for rounding (m).
+  /// Bound on the body's coordinates (m). Bounds on rounding errors use it.
   double extent() const {
     return volume ? volume->extent() : shape.centre.lpNorm<1>() + shape.reach + shape.margin;
   }
@@ -58,24 +58,27 @@ bool isOccupied(const fcl::CollisionGeometryd& geometry);
 /// Whether the geometry is one valid convex body, and if so that body, without a pose.
 bool isConvex(const fcl::CollisionGeometryd& geometry, ConvexBody& body);
 
-/// Signed distance of two bodies; the cache serves pairs with an STP-BV, and keeps the normal of any.
+/// Signed distance of two bodies. The cache is used for pairs with an STP-BV. For other pairs it receives the
+/// normal.
 Distance distance(const ConvexBody& a, const ConvexBody& b, PairCache* cache = nullptr);
 
 /// Whether two bodies are certainly farther apart than `x` (m): first by isFartherByBounds(), then by a
 /// search. Poses must be rigid; with an STP-BV they need not be, and the result is then false.
 bool isFartherThan(double x, const ConvexBody& a, const ConvexBody& b, PairCache* cache,
                    ProximityCounts* counts = nullptr);
-/// The cheap part of the test: the supporting planes along the cache's normal, since the gap along any normal
-/// is a lower bound (docs/theory.md, 5), and the balls around STP-BVs, because their boxes were not compared.
+/// The cheap part of isFartherThan(). It uses the supporting planes along the cache's normal, because the gap
+/// along any normal is a lower bound (docs/theory.md, 5). It also uses the balls around STP-BVs, because
+/// their boxes were not compared.
 bool isFartherByBounds(double x, const ConvexBody& a, const ConvexBody& b, const PairCache& cache);
 
-/// Two convex bodies at their poses, which need no boxes around them: with an STP-BV at any poses, else
-/// valid ones, one of them bounded, at poses that are made rigid. False for any other two.
+/// Whether both geometries are convex bodies that need no boxes around them. If so, `a` and `b` are these
+/// bodies at their poses. A pair with an STP-BV may have any poses. Otherwise both shapes must be valid and
+/// one of them bounded, and their poses are made rigid.
 bool areBodies(const fcl::CollisionGeometryd& geometry1, const Eigen::Isometry3d& pose1,
                const fcl::CollisionGeometryd& geometry2, const Eigen::Isometry3d& pose2, ConvexBody& a,
                ConvexBody& b);
 
-/// One geometry at a pose: a body, or the elements of a mesh or a tree below their boxes. A view; the
+/// One geometry at a pose: a body, or the elements of a mesh or a tree below their boxes. It is a view; the
 /// geometry must outlive it.
 class PosedGeometry {
  public:
@@ -83,11 +86,14 @@ class PosedGeometry {
   struct Part {
     OrientedBox box;
     bool leaf;
-    ElementTree::Node node;            ///< for a body: its id is -1, its box in the body's own frame
-    const ConvexBody* body = nullptr;  ///< null where only the box is known
-    double coordinates = 0;            ///< all that make up the two boxes, summed, for rounding (m)
+    /// For a body: its id is -1, its box in the body's own frame.
+    ElementTree::Node node;
+    /// Null if only the box is known.
+    const ConvexBody* body = nullptr;
+    /// Sum of the coordinates and half sides of both boxes, for bounds on rounding (m)
+    double coordinates = 0;
 
-    /// How far it reaches along a unit vector of the box's frame, from the box's centre (m).
+    /// How far the part reaches along a unit vector of the box's frame, from the box's centre (m).
     double reach(const Eigen::Vector3d& n) const {
       if (!body) return box.reach(n);
       const Eigen::Vector3d m = box.axes.transpose() * n;
@@ -95,26 +101,26 @@ class PosedGeometry {
     }
   };
 
-  /// `inFrame`: the pose seen from the pair's first geometry. Poses are rigid. `known`: to be sound
-  /// (isSound()), but for what the `tree` has found, where there is one.
+  /// `inFrame`: the pose seen from the pair's first geometry. Poses are rigid. `known`: the geometry is known
+  /// to be sound (isSound()). If there is a `tree`, it is copied, and `known` has no effect.
   PosedGeometry(const fcl::CollisionGeometryd& geometry, const Eigen::Isometry3d& pose,
                 const Eigen::Isometry3d& inFrame, bool known = false, const ElementTree* tree = nullptr);
 
-  /// Whether it is a valid body, or a mesh or a tree with anything in it.
+  /// Whether the geometry is a valid body, or a mesh or a tree with anything in it.
   bool known() const { return isBody() || tree_.any(); }
-  /// Whether all corners of a mesh are numbers. Looks at each of them.
+  /// Whether all corners of a mesh are numbers. Looks at each corner.
   bool finite() const { return isBody() || tree_.finite(); }
-  /// Whether FCL has merged its inner boxes (ElementTree::merged()).
+  /// Whether FCL has merged the geometry's inner boxes (ElementTree::merged()).
   bool merged() const { return tree_.merged(); }
-  /// Whether only leaves tell where the elements are (ElementTree::loose()).
+  /// Whether only the leaves' boxes bound the elements tightly (ElementTree::loose()).
   bool loose() const { return tree_.loose(); }
-  /// Its elements, of which there may be none.
+  /// The geometry's elements; there may be none.
   const ElementTree& tree() const { return tree_; }
-  /// Its axes in the frame of the pair's first geometry.
+  /// The geometry's axes in the frame of the pair's first geometry.
   Eigen::Matrix3d axes() const { return inFrame_.linear(); }
   bool isBody() const { return body_.volume || isShape_; }
   bool unbounded() const { return isShape_ && body_.shape.unbounded(); }
-  /// The body. Only where it is one.
+  /// The body. Only to be called if isBody().
   const ConvexBody& body() const { return body_; }
 
   /// How far a mesh reaches along `n` (frame of the pair's first geometry, m): looks at each corner.
@@ -123,9 +129,9 @@ class PosedGeometry {
   }
 
   Part whole() const;
-  /// At most eight; how many.
+  /// Fills `child` with the part's children. Returns their number, at most eight.
   std::size_t children(const Part& of, std::array<Part, 8>& child) const;
-  /// What a leaf is. False for a cell that is free.
+  /// The body of a leaf. False for a free cell.
   bool body(const Part& leaf, ConvexBody& body) const;
 
  private:
@@ -133,29 +139,30 @@ class PosedGeometry {
 
   ElementTree tree_;
   Eigen::Isometry3d inFrame_;
-  bool unmoved_;  // its frame is the pair's
+  bool unmoved_;  // whether its frame is that of the pair
   ConvexBody body_;
   bool isShape_ = false;
 };
 
 /// Two geometries whose poses were made rigid.
 struct PosedPair {
-  /// `known` and `trees`: as PosedGeometry's, of both geometries.
+  /// `known` and `trees`: as for PosedGeometry, for both geometries.
   PosedPair(const fcl::CollisionGeometryd& geometry1, Eigen::Isometry3d pose1,
             const fcl::CollisionGeometryd& geometry2, Eigen::Isometry3d pose2, bool known,
             const KnownTrees& trees = {});
 
-  /// Whether all corners of meshes are numbers. Without it nothing is known about the pair.
+  /// Whether all corners of meshes are numbers. If not, nothing is known about the pair.
   bool finite() const { return first.finite() && second.finite(); }
-  /// Whether neither is a body: surfaces, which have no depth, and so no distance below 0.
+  /// Whether neither geometry is a body. Such surfaces have no depth, so their distance is not below 0.
   bool areSurfaces() const { return !first.isBody() && !second.isBody(); }
-  /// The cache's normal, unit, in the frame of the first geometry; zero where it has none.
+  /// The cache's unit normal in the frame of the first geometry; zero if the cache has none.
   Eigen::Vector3d known(const PairCache& cache) const { return toWorld.transpose() * cache.direction(); }
 
   bool valid;  ///< both poses rigid, both geometries known, one of them bounded
   PosedGeometry first, second;
   Eigen::Matrix3d toWorld;  ///< the first geometry's axes
-  /// Beside a tree: a bounded body's box along the axes that all the tree's cells have.
+  /// If one geometry is a tree and the other a bounded body: the body's box along the axes of the tree's
+  /// cells.
   std::optional<OrientedBox> besideTree;
 };
 
@@ -165,7 +172,7 @@ struct PosedPair {
 double gapOf(const PosedPair& pair, const PosedGeometry::Part& a, const PosedGeometry::Part& b, double enough,
              const Eigen::Vector3d& n = {0, 0, 0});
 
-/// What a gap between two parts may be off by rounding, and by their support functions (m).
+/// Bound on the error of a gap between two parts, from rounding and from their support functions (m).
 double boxRounding(const PosedGeometry::Part& a, const PosedGeometry::Part& b);
 
 /// Descends through both hierarchies, the bigger part first and near children first. `visitor.bound(a, b)`

@@ -23,11 +23,11 @@ struct HullCorner {
   std::array<int, 2> vertex{-1, -1};
 };
 
-/// A pair of hulls in A's frame, origin at A's centre, lengths divided by a
-/// power of two so that the pair is about 1.
+/// A pair of hulls in A's frame, with the origin at A's centre. Lengths are divided by a power of two so that
+/// the size of the pair is about 1.
 ///
-/// The scale being a power of two, scaling loses nothing. Support points climb from the last ones;
-/// the struct lives on the stack of one query.
+/// Because the scale is a power of two, scaling does not round. Support points climb from the last ones. The
+/// struct lives on the stack of one query.
 class PosedHulls {
  public:
   PosedHulls(const HullGraph& a, const Eigen::Isometry3d& poseA, const HullGraph& b,
@@ -45,7 +45,8 @@ class PosedHulls {
   Eigen::Vector3d offset() const { return unpack(offset_); }  ///< B's centre, scaled
   int supports() const { return supports_; }
 
-  /// The difference's point farthest against `n`, scaled: B's farthest point along -n minus A's along n.
+  /// The point of the difference B - A farthest against `n`, scaled: B's farthest point along -n minus A's
+  /// along n.
   HullCorner support(const Eigen::Vector3d& n) {
     ++supports_;
     const std::array<int, 2> v{climb(0, n), climb(1, n)};
@@ -59,12 +60,12 @@ class PosedHulls {
     return body == 0 ? Eigen::Vector3d(scale_ * p) : unpack(offset_ + scale_ * (pose_.rotation * pack(p)));
   }
 
-  /// The same as callbacks for libccd, which sees both objects as this struct, and as const; these are ours
-  /// and live on one query's stack.
+  /// Callbacks of support points for libccd. libccd passes this struct for both objects, as const. The const
+  /// may be cast away, because the struct is ours and lives on one query's stack.
   template <std::size_t body>
   static void ccdSupport(const void* pair, const ccd_vec3_t* direction, ccd_vec3_t* point) {
     auto& self = *const_cast<PosedHulls*>(static_cast<const PosedHulls*>(pair));
-    self.supports_ += body == 0;  // both are asked in turn
+    self.supports_ += body == 0;  // libccd asks for both bodies in turn
     const Eigen::Vector3d d = fromCcd(*direction);
     const int v = self.climb(body, body == 0 ? d : Eigen::Vector3d(-d));
     self.log_[body].add(v);
@@ -74,10 +75,10 @@ class PosedHulls {
     toCcd(static_cast<const PosedHulls*>(pair)->first_, direction);
   }
 
-  /// Direction libccd's search begins with (any length).
+  /// The direction with which libccd's search begins (any length).
   void setFirstDirection(const Eigen::Vector3d& n) { first_ = n; }
 
-  /// The vertex of a support point of libccd: the nearest of the points that it was given.
+  /// The vertex of one of libccd's support points: the nearest of the points that libccd was given.
   template <std::size_t body>
   int loggedVertex(const ccd_vec3_t& given) const {
     const Eigen::Vector3d p = fromCcd(given);
@@ -103,8 +104,9 @@ class PosedHulls {
     constexpr double kFar = 1e8;
     const Eigen::Vector3d far = unpack(offset_);
     double size = std::max(hull_[0]->radius() + hull_[1]->radius(), far.lpNorm<1>() / kFar);
-    if (!far.allFinite() || !std::isfinite(size)) return;  // nor is the offset where the rotation is not
-    if (!(size > 0)) size = 1;                             // two points on one spot
+    // If the rotation is not finite, the offset is not either.
+    if (!far.allFinite() || !std::isfinite(size)) return;
+    if (!(size > 0)) size = 1;  // two points at the same place
     int exponent = 0;
     std::frexp(size, &exponent);
     scale_ = std::ldexp(1.0, -exponent);
@@ -117,7 +119,8 @@ class PosedHulls {
     return last_[body] = hull_[body]->extremeVertex(body == 0 ? n : pose_.opposite(n), last_[body]);
   }
 
-  // What libccd was given, a ring: its simplex holds only points of its last few steps.
+  // The last vertices that libccd was given, in a ring buffer. Its simplex has only points of its last few
+  // steps.
   static constexpr int kLog = 64;
   struct Log {
     std::array<int, kLog> vertex;
@@ -126,7 +129,7 @@ class PosedHulls {
   };
 
   std::array<const HullGraph*, 2> hull_;
-  RelativePose pose_;  // B's frame to A's
+  RelativePose pose_;  // from B's frame to A's
   Packed offset_{};
   Eigen::Vector3d first_{1, 0, 0};
   double scale_ = 1;

@@ -20,7 +20,7 @@ namespace {
 using namespace detail;
 using Eigen::Vector3d;
 
-/// Ends the walk down both hierarchies with the first pair of elements within `x`.
+/// Visitor of descend() that ends the walk at the first pair of elements within `x`.
 class Within {
  public:
   Within(double x, const PosedPair& pair, const QueryContext& context) : x_(x), pair_(pair) {
@@ -48,8 +48,8 @@ class Within {
   ProximityCounts* counts_ = nullptr;
 };
 
-/// Radius of a ball about a bounded shape's centre that lies in it; no more than the margin where finding a
-/// larger one takes longer.
+/// Radius of a ball about a bounded shape's centre that lies in the shape. It is only the margin if a larger
+/// radius takes longer to find.
 double ballInside(const Shape& shape) {
   switch (shape.kind) {
     case ShapeKind::box:
@@ -71,28 +71,28 @@ class ShapeBounds {
     centres_ = (b.pose.linear() * b.shape.centre + d_ - a.pose.linear() * a.shape.centre).norm();
   }
 
-  /// Whether the balls around them are farther apart, or the planes along the cache's normal.
+  /// Whether the balls around the bodies, or the planes along the cache's normal, are farther apart than `x`.
   bool areFarther(double x, const PairCache& cache) const {
     const auto ballAround = [](const Shape& shape) { return shape.reach + shape.margin; };
     if (centres_ - ballAround(a_.shape) - ballAround(b_.shape) > x + rounding_) return true;
     const Vector3d n = cache.direction();
     return !n.isZero(0) && n.dot(d_) - a_.support(n) - b_.support(-n) > x + rounding_;
   }
-  /// Whether the balls in them are no farther apart.
+  /// Whether the balls inside the bodies are no farther apart than `x`.
   bool areWithin(double x) const {
     return centres_ - ballInside(a_.shape) - ballInside(b_.shape) + rounding_ <= x;
   }
 
  private:
   const ConvexBody &a_, &b_;
-  Vector3d d_;       // from one's origin to the other's (m)
-  double rounding_;  // of a gap (m)
-  double centres_;   // how far apart they are (m)
+  Vector3d d_;       // from a's origin to b's (m)
+  double rounding_;  // rounding of a gap (m)
+  double centres_;   // distance of the two centres (m)
 };
 
-/// By the elements of a valid pair.
+/// isFartherThan() for a valid pair, by its elements.
 bool areElementsFarther(double x, const PosedPair& pair, const QueryContext& context) {
-  if (x < 0 && pair.areSurfaces()) return true;  // they have no depth: their distance is at least 0
+  if (x < 0 && pair.areSurfaces()) return true;  // surfaces have no depth: their distance is at least 0
   Within within(x, pair, context);
   const PosedGeometry::Part a = pair.first.whole(), b = pair.second.whole();
   if (within.skip(within.bound(a, b))) return true;
@@ -142,7 +142,7 @@ bool isFartherThan(double x, const ConvexBody& a, const ConvexBody& b, PairCache
 bool isFartherThan(double x, const fcl::CollisionGeometryd& geometry1, const fcl::Transform3d& pose1,
                    const fcl::CollisionGeometryd& geometry2, const fcl::Transform3d& pose2,
                    const QueryContext& context) {
-  if (std::isnan(x)) return false;  // no distance is known to be above what is no number
+  if (std::isnan(x)) return false;  // no distance is known to be greater than NaN
   ConvexBody bodyA, bodyB;
   if (areBodies(geometry1, pose1, geometry2, pose2, bodyA, bodyB))
     return isFartherThan(x, bodyA, bodyB, context.cache, context.proximity);

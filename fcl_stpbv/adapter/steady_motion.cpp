@@ -25,9 +25,9 @@ using namespace detail;
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-/// Gives access to FCL's protected members with both ends of a motion. FCL's own derived data cannot be used:
-/// they are wrong for a screw without rotation (the translation is scaled by its own length), and unset for
-/// an interpolation made by InterpMotion(tf1, tf2, O).
+/// Gives access to FCL's protected members that contain both ends of a motion. FCL's own derived data cannot
+/// be used: they are wrong for a screw without rotation (the translation is scaled by its own length), and
+/// unset for an interpolation made by InterpMotion(tf1, tf2, O).
 struct ScrewEnds : fcl::ScrewMotion<double> {
   using fcl::ScrewMotion<double>::tf1;
   using fcl::ScrewMotion<double>::tf2;
@@ -37,7 +37,8 @@ struct InterpolationEnds : fcl::InterpMotion<double> {
   using fcl::InterpMotion<double>::tf2;
 };
 
-/// The motion as the type it is; null for any other, also one derived from it, which may go another way.
+/// The motion as this type; null if it is of any other type. A derived type counts as another one, because it
+/// may move differently.
 template <typename Motion>
 const Motion* exactly(const fcl::MotionBased& motion) {
   return typeid(motion) == typeid(Motion) ? static_cast<const Motion*>(&motion) : nullptr;
@@ -50,7 +51,7 @@ struct Ends {
 
   Ends(const Isometry3d& first, const Isometry3d& last) : givenBegin(first), givenEnd(last) {}
 
-  /// The rotation vector (rad) from the first to the last, the way round that FCL goes.
+  /// The rotation vector (rad) from the first pose to the last, in the sense of rotation that FCL chooses.
   Vector3d turn() const {
     const auto between = [](const Isometry3d& from, const Isometry3d& to) {
       return Eigen::AngleAxisd(Eigen::Matrix3d(to.linear() * from.linear().transpose()));
@@ -62,14 +63,14 @@ struct Ends {
   }
 };
 
-/// A point of the body's frame moves straight.
+/// The motion in which this point of the body's frame moves on a straight line.
 SteadyMotion about(const Ends& ends, const Vector3d& point) {
   const Vector3d angular = ends.turn();
   return {ends.begin, ends.end * point - ends.begin * point, (ends.begin.linear() * point).cross(angular),
           angular};
 }
 
-/// An axis stays where it is but for the way along itself (Chasles).
+/// The motion about an axis that moves only along itself (Chasles).
 SteadyMotion screw(const Ends& ends) {
   SteadyMotion motion = about(ends, Vector3d(0, 0, 0));
   const double angle = motion.angular.norm(), half = 0.5 * angle;
@@ -83,8 +84,8 @@ SteadyMotion screw(const Ends& ends) {
 
 }  // namespace
 
-// With the sine of the half angle nothing cancels for small angles: the factor of `turning` is sin(angle t) /
-// angle = chord cos(half), and that of the inward part is (1 - cos(angle t)) / angle^2 = chord^2 / 2.
+// With the sine of the half angle nothing cancels for small angles. The factor of `turning` is sin(angle t) /
+// angle = chord cos(half). The factor of the inward part is (1 - cos(angle t)) / angle^2 = chord^2 / 2.
 Isometry3d SteadyMotion::at(double t, Vector3d* velocity) const {
   const double angle = angular.norm(), half = 0.5 * t * angle, s = std::sin(half), c = std::cos(half);
   const double chord = half == 0 ? t : t * (s / half);
@@ -133,8 +134,9 @@ bool steadyMotion(const fcl::MotionBased& motion, SteadyMotion& result) {
   if (const auto* m = exactly<fcl::InterpMotion<double>>(motion)) {
     const Ends ends(m->*&InterpolationEnds::tf1, m->*&InterpolationEnds::tf2);
     if (!ends.valid) return false;
-    // FCL's constructors without a point leave it to what the memory held, and its object then moves about
-    // that. It does not matter where nothing turns; where it is no place for a body, nothing is known.
+    // FCL's constructors without a reference point leave the point uninitialised, and FCL's object then moves
+    // about it. This does not matter if nothing rotates. If the point is too far away for a body, nothing is
+    // known.
     constexpr double kFar = 1e6;  // m
     const Vector3d& given = m->getReferencePoint();
     result = about(ends, Vector3d(0, 0, 0));

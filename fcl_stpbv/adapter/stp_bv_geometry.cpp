@@ -45,7 +45,7 @@ StpBvGeometry::StpBvGeometry(StpBv::Ptr volume, std::shared_ptr<const HullGraph>
 }
 
 void StpBvGeometry::nameFaces() {
-  std::map<std::vector<int>, int> patches;  // by a face's vertices, sorted
+  std::map<std::vector<int>, int> patches;  // key: a face's vertices, sorted
   for (int f = 0; f < volume_->faceCount(); ++f) {
     std::vector<int> ring = volume_->faces()[at(f)];
     std::sort(ring.begin(), ring.end());
@@ -56,14 +56,15 @@ void StpBvGeometry::nameFaces() {
     for (const int v : hull_->faces()[at(f)]) ring.push_back(hull_->cloudIndex(v));
     std::sort(ring.begin(), ring.end());
     const auto named = patches.find(ring);
-    // The two sides of a flat body share one name: the normal tells them apart.
+    // The two sides of a flat body have the same vertices, so the normal tells them apart.
     const bool same = named != patches.end() && hull_->faceCount() > 2;
     facePatch_.push_back(same ? named->second : volume_->owner(hull_->faceNormal(f)));
   }
 }
 
 void StpBvGeometry::nameEdges() {
-  std::vector<std::array<int, 3>> patches;  // an edge's ends, ascending, and its patch, one of several
+  // An edge's ends, ascending, and its patch; an edge may have several.
+  std::vector<std::array<int, 3>> patches;
   for (int e = 0; e < volume_->edgeCount(); ++e) {
     const auto [a, b] = volume_->edges()[at(e)].vertex;
     patches.push_back({std::min(a, b), std::max(a, b), volume_->edgePatch(e)});
@@ -121,14 +122,16 @@ void StpBvGeometry::computeLocalAABB() {
     aabb_local.min_[axis] = -volume_->support(-n);
   }
   aabb_center = aabb_local.center();
-  // FCL turns the box into this sphere for a rotated object: the tighter of two that hold the surface.
+  // FCL uses this sphere in place of the box for a rotated object. Of two spheres that contain the surface,
+  // take the smaller one.
   const double corner = (aabb_local.max_ - aabb_center).norm();
   const double ball = (volume_->centre() - aabb_center).norm() + volume_->enclosingRadius();
   aabb_radius = std::min(corner, ball);
 }
 
 const StpBvGeometry* asStpBv(const fcl::CollisionGeometryd* geometry) {
-  // FCL's other types at once, then the usual one; a class derived from it takes the longer way.
+  // First rules out FCL's other types, then tests for the usual type. Only a derived class needs the slower
+  // cast.
   if (!geometry || geometry->getNodeType() != fcl::GEOM_CONVEX) return nullptr;
   return typeid(*geometry) == typeid(StpBvGeometry) ? static_cast<const StpBvGeometry*>(geometry)
                                                     : dynamic_cast<const StpBvGeometry*>(geometry);

@@ -26,7 +26,7 @@ class StpBvGeometry : public fcl::Convexd {
   /// Computes the hull, and which patch of the volume belongs to which feature of the hull. O(n log n).
   explicit StpBvGeometry(StpBv::Ptr volume);
 
-  /// The same, for a hull of the volume's vertices that is already known.
+  /// Like the constructor above, with a hull of the volume's vertices that is already known.
   StpBvGeometry(StpBv::Ptr volume, std::shared_ptr<const detail::HullGraph> hull);
 
   /// The smooth body.
@@ -36,7 +36,7 @@ class StpBvGeometry : public fcl::Convexd {
   const detail::HullGraph& hull() const { return *hull_; }
 
   /// The patch that corresponds to a feature of the hull: the small sphere of a vertex, the torus patch of an
-  /// edge, the big sphere of a face. If the volume has no patch with the same vertices, the patch whose
+  /// edge, the big sphere of a face. If no patch of the volume has the same vertices, it is the patch whose
   /// region contains the normal at the middle of the feature.
   int patchOf(const detail::HullFeature& feature) const;
 
