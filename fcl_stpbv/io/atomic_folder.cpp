@@ -1,6 +1,7 @@
-// 1. a new folder beside the old one;
-// 2. all files into it, and on to the disk at once;
-// 3. the two folders change names in one step, where the file system can do that; the old one is removed.
+// 1. Makes a new folder beside the old one.
+// 2. Writes all files into it, and then flushes them to the disk together.
+// 3. Exchanges the names of the two folders, in one step if the file system can do that, and removes the old
+//    folder.
 #include "fcl_stpbv/io/atomic_folder.h"
 
 #include <fcntl.h>
@@ -25,7 +26,7 @@ namespace fs = std::filesystem;
   throw Error(path.string() + ": cannot be written: " + std::strerror(error));
 }
 
-// Removes what it names at the end, if it is there.
+// Removes `path`, if it is there, at the end of its own lifetime.
 struct Removed {
   fs::path path;
   ~Removed() {
@@ -45,7 +46,7 @@ void writeFile(const fs::path& path, const std::string& content) {
   if (!out) refuse(path, errno != 0 ? errno : EIO);
 }
 
-// One call for all files instead of one each.
+// One call flushes all files, instead of one call for each file.
 void toDisk(const fs::path& folder) {
   const int open = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   const bool done = open >= 0 && ::syncfs(open) == 0;
@@ -74,7 +75,7 @@ void takeName(const fs::path& made, const fs::path& name) {
   const Removed replaced{aside};
 }
 
-// Without a slash at the end, and where a link leads to.
+// The folder's path without a slash at the end; symbolic links are followed.
 fs::path placeOf(const std::string& folder) {
   fs::path name = fs::path(folder).lexically_normal();
   if (name.filename().empty()) name = name.parent_path();
@@ -83,7 +84,7 @@ fs::path placeOf(const std::string& folder) {
   return name;
 }
 
-// An empty folder beside it.
+// Makes an empty folder beside `name` and returns its path.
 std::string madeBeside(const fs::path& name, const std::string& folder) {
   const fs::path parent = name.parent_path().empty() ? "." : name.parent_path();
   std::string made = (parent / ".fcl_stpbv-XXXXXX").string();
@@ -102,7 +103,7 @@ void atomicWriteFolder(const std::string& folder, const FolderFiles& files) {
   const EndPutOff putOff;
   const fs::path name = placeOf(folder);
   const std::string made = madeBeside(name, folder);
-  const Removed temporary{made};  // after a swap the old folder
+  const Removed temporary{made};  // after the exchange of names it is the old folder
   const mode_t mask = ::umask(0);
   ::umask(mask);
   if (::chmod(made.c_str(), 0777 & ~mask) != 0) refuse(folder, errno);

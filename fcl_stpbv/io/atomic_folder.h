@@ -6,7 +6,7 @@
 
 namespace fcl_stpbv::detail {
 
-/// Contents by name; a name may have folders, as in "meshes/arm.obj".
+/// The contents of files by name. A name may contain folders, as in "meshes/arm.obj".
 using FolderFiles = std::map<std::string, std::string>;
 
 /// Makes `folder` hold exactly these files. They are written into a new folder beside it, which is then

@@ -25,7 +25,8 @@
 namespace fcl_stpbv::detail {
 namespace {
 
-// Temporary files are named by process and number, whatever they become: no name gets too long.
+// The names of temporary files contain the process and a number, but not the file's own name, so that no name
+// gets too long.
 constexpr std::string_view kTemporary = ".fcl_stpbv-", kTemporaryEnd = ".tmp";
 
 [[noreturn]] void refuse(const std::string& path, int error) {
@@ -36,7 +37,7 @@ int writeAll(int file, std::string_view content) {
   while (!content.empty()) {
     const ssize_t written = ::write(file, content.data(), content.size());
     if (written < 0 && errno == EINTR) continue;
-    if (written < 0 && errno == EAGAIN) {  // a pipe that does not block, while its reader takes its time
+    if (written < 0 && errno == EAGAIN) {  // the pipe is full and does not block; its reader is slow
       pollfd space{file, POLLOUT, 0};
       ::poll(&space, 1, -1);
       continue;
@@ -71,10 +72,10 @@ int descriptorOf(const std::string& path) {
   return -1;
 }
 
-// The file that `path` stands for, symbolic links followed even where the last one hangs in the air.
+// The file that `path` stands for. Symbolic links are followed, even if the last one leads to no file.
 std::string target(const std::string& path) {
   namespace fs = std::filesystem;
-  constexpr int kMostLinks = 40;  // what the kernel follows
+  constexpr int kMostLinks = 40;  // the kernel's limit
   fs::path file = path;
   std::error_code error;
   for (int i = 0; i < kMostLinks && fs::is_symlink(file, error); ++i) {
@@ -90,7 +91,7 @@ std::string folderOf(const std::string& path) {
   return parent.empty() ? "." : parent;
 }
 
-// A new file beside `path`; its name is left in `name`.
+// Opens a new file beside `path`, and sets `name` to its name.
 int openBeside(const std::string& path, mode_t mode, std::string& name) {
   static std::atomic<unsigned> serial{0};
   for (;;) {
@@ -101,7 +102,8 @@ int openBeside(const std::string& path, mode_t mode, std::string& name) {
   }
 }
 
-// Makes the rename itself survive a power cut. Some file systems cannot; the file is whole all the same.
+// Makes the rename itself survive a power failure. Some file systems cannot do that; the file is complete
+// anyway.
 void syncFolder(const std::string& path) {
   const int folder = ::open(folderOf(path).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (folder < 0) return;
@@ -109,12 +111,12 @@ void syncFolder(const std::string& path) {
   ::close(folder);
 }
 
-// A file that is whole, and only has to get its name.
+// A file whose content is complete and that only has to get its final name.
 struct Whole {
   std::string temporary, file;
 };
 
-// `old` is the file to be replaced whose permissions stay, or null.
+// `old` is the file to be replaced, whose permissions are kept; or null.
 Whole writeBeside(const std::string& file, std::string_view content, mode_t mode, const struct stat* old) {
   std::string temporary;
   const int out = openBeside(file, mode, temporary);
@@ -139,7 +141,7 @@ void putInPlace(const Whole& whole) {
   syncFolder(whole.file);
 }
 
-// What is at `path`, if anything. Throws where that is a folder, or not to be written.
+// Whether anything exists at `path`, and what it is. Throws if it is a folder or must not be written.
 bool findOld(const std::string& path, struct stat& old) {
   if (path.empty()) throw Error("the name of a file to write is empty; give one");
   if (::stat(path.c_str(), &old) != 0) return false;
@@ -177,7 +179,7 @@ void atomicWriteAll(const std::vector<NamedText>& files) {
       written.push_back(writeBeside(target(file.path), file.content, 0666, exists ? &old : nullptr));
     }
     for (const Whole& whole : written) putInPlace(whole);
-  } catch (...) {  // those in place have left their temporary names
+  } catch (...) {  // files that are in place have no temporary names any more
     for (const Whole& whole : written) ::unlink(whole.temporary.c_str());
     throw;
   }

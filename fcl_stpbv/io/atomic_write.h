@@ -9,10 +9,9 @@
 namespace fcl_stpbv::detail {
 
 /// Puts `content` into `path`: a temporary file in the same folder, fsync, rename. Signals that would end the
-/// process are held back in the calling thread for that moment, so Ctrl-C leaves no temporary file behind (a
-/// program with more threads has to block them there itself). A symbolic link is followed, an existing file
-/// keeps its permissions. A device, a pipe, or an open descriptor (/dev/stdout, /dev/fd/3) is written
-/// straight and can be interrupted.
+/// process are delayed until this is done, in whatever thread they arrive, so Ctrl-C leaves no temporary file
+/// behind. A symbolic link is followed, an existing file keeps its permissions. A device, a pipe, or an open
+/// descriptor (/dev/stdout, /dev/fd/3) is written directly and can be interrupted.
 /// @throws Error naming the file and the reason.
 void atomicWrite(const std::string& path, std::string_view content);
 
@@ -20,14 +19,14 @@ struct NamedText {
   std::string path, content;
 };
 
-/// The same for files that belong together: all are written before the first one is renamed to its name. No
-/// devices or pipes. @throws Error as above. All files are then unchanged, unless the rename of a later file
-/// fails (for example in a folder in which files of other users cannot be replaced); the files renamed before
-/// it are new then.
+/// atomicWrite() for files that belong together: all are written before the first one is renamed to its name.
+/// No devices or pipes. @throws Error as above. All files are then unchanged, unless the rename of a later
+/// file fails (for example in a folder in which files of other users cannot be replaced). In that case the
+/// files renamed before it are new.
 void atomicWriteAll(const std::vector<NamedText>& files);
 
-/// The same for a file that nobody else may change: only its owner has write permission. If the path is a
-/// link or a pipe, that is replaced, not written to.
+/// atomicWrite() for a file that nobody else may change: only its owner has write permission. If the path is
+/// a link or a pipe, the link or pipe is replaced, not written to.
 /// @throws Error as above.
 void atomicWriteOwn(const std::string& path, std::string_view content);
 
@@ -35,7 +34,7 @@ void atomicWriteOwn(const std::string& path, std::string_view content);
 void sweepTemporaries(const std::string& folder);
 
 /// Writes a tool's result: to standard output for "" and "-", else to the file.
-/// @throws Error also where standard output cannot be written.
+/// @throws Error also if standard output cannot be written.
 void writeOutput(const std::string& path, std::string_view content);
 
 /// Writes `content` into a caller's stream and flushes it, so that errors such as a full disk are detected.

@@ -17,7 +17,7 @@ constexpr std::size_t kFacetBytes = 8;  // "3 0 1 2\n"
 constexpr std::size_t kIndexBytes = 2;
 constexpr long kMostDimension = 1000;  // anything larger is no dimension but a damaged number
 
-// The words of the first line that holds any, cut from the front of `text`.
+// Cuts the first line that contains any words from the front of `text`, and returns its words.
 std::vector<std::string_view> takeLine(std::string_view& text) {
   std::vector<std::string_view> words;
   while (!text.empty() && words.empty()) {
@@ -38,9 +38,9 @@ bool isWhole(std::string_view word) {
   return !word.empty() && std::all_of(word.begin(), word.end(), [](char c) { return c >= '0' && c <= '9'; });
 }
 
-// How many numbers stand on the line of counts: 3 for a polyhedron, 1 for a plain point file, 0 for neither.
+// How many numbers are on the line of counts: 3 for a polyhedron, 1 for a plain point file, 0 for neither.
 std::size_t countsOnSecondLine(std::string_view text) {
-  // qhull's input may carry a comment behind the dimension.
+  // qhull's input may have a comment after the dimension.
   const std::vector<std::string_view> first = takeLine(text);
   const bool dimension =
       !first.empty() && isWhole(first[0]) && (first.size() == 1 || !isWhole(first[1].substr(0, 1)));

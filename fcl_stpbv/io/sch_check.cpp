@@ -104,12 +104,13 @@ class Checker {
     }
   }
 
-  // Largest rounding error of a vertex's distance from a face's sphere (m).
+  // How far a correct vertex may seem to be off a face's sphere.
   double sphereError(const Vector3d& p, const Vector3d& centre) const {
     return eps_ * (p.norm() + centre.norm() + file_.R);
   }
 
-  // Largest rounding error of a direction between two points that are `length` apart (rad).
+  // How far a correct direction may seem to be turned, if it is computed from points `fromOrigin` from the
+  // origin and `length` apart.
   double turnError(double fromOrigin, double length) const { return eps_ * (1 + fromOrigin / length); }
 
   void checkFace(Size f) const {
@@ -139,7 +140,8 @@ class Checker {
     const Vector3d& b = face.corner[(k + 1) % 3];
     checkUnit(face.line, face.side[k].axis);
     const Vector3d normal = (a - face.centre).cross(b - face.centre);
-    // Near the smallest R a side may pass near the centre. Then it hardly determines the plane through both.
+    // Near the smallest R a side may pass close to the centre. Then it hardly determines the plane through
+    // both.
     const double length = (b - a).norm(), beside = normal.norm() / length;
     require((face.side[k].axis - normal.normalized()).norm() <=
                 turnError((a.norm() + b.norm() + face.centre.norm()) * std::max(1.0, rho_ / beside), length),
@@ -162,7 +164,8 @@ class Checker {
     const Vector3d along = vertex(i) - vertex(j);
     const double length = along.norm(), fromOrigin = vertex(i).norm() + vertex(j).norm();
     const double half = length / 2, circle = std::sqrt(std::max(0.0, (rho_ - half) * (rho_ + half)));
-    // Rc depends on l through l / (4 Rc): steep only near the smallest R.
+    // A change of the length l changes the circle's radius Rc by l / (4 Rc) times as much, which is a lot
+    // only near the smallest R.
     const double circleError = eps_ * (file_.R + fromOrigin * length / std::max(circle, eps_ * rho_));
     require(std::abs(torus.circle - circle) <= circleError, torus.line,
             "the torus's circle has radius " + toDecimal(torus.circle) + ", expected " + toDecimal(circle));
@@ -179,8 +182,8 @@ class Checker {
     }
   }
 
-  // All vertices lie in all balls iff those across each edge do: the surface
-  // is convex where it is at every edge.
+  // All vertices lie in all balls iff the vertices across each edge do, because a surface that is convex at
+  // every edge is convex.
   void checkContainment(const Torus& torus, const Face& ball, const Face& across) const {
     for (const Vector3d& p : across.corner) {
       require((p - ball.centre).norm() <= rho_ + sphereError(p, ball.centre), torus.line,
@@ -192,8 +195,8 @@ class Checker {
             torus.line, "the torus is marked degenerate, but its two face spheres differ");
   }
 
-  // A sphere through three points that are uncertain by e is uncertain by
-  // about e rho / (the triangle's height).
+  // If three points are uncertain by e, a sphere through them is uncertain by about e rho / (the triangle's
+  // height).
   double centreError(const Face& face) const {
     const Vector3d side = face.corner[1] - face.corner[0], other = face.corner[2] - face.corner[0];
     const double longest = std::max({side.norm(), other.norm(), (side - other).norm()});
@@ -242,7 +245,8 @@ class Checker {
     }
   }
 
-  // Every side names something that names it back, so all tori are named twice if the counts fit.
+  // Every side names a torus or a face that names the side back. So if the counts fit, every torus is named
+  // twice.
   void checkCount() const {
     std::size_t degenerate = 0;
     for (const Face& face : file_.faces)

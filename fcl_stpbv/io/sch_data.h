@@ -28,30 +28,30 @@ struct Face {
   double radius;
   Eigen::Vector3d centre;
   std::array<Eigen::Vector3d, 3> corner;
-  std::array<Border, 3> side;  ///< sides 12, 23, 31
+  std::array<Border, 3> side;  ///< from corner 1 to 2, from 2 to 3, from 3 to 1
 };
 
 struct Torus {
   int line;
-  bool real;  ///< false where both face spheres coincide: the inner edge of a k-gon's fan
+  bool real;  ///< false if both face spheres coincide: the inner edge of a k-gon's fan
   double circle, tube;
   Eigen::Vector3d middle, axis;
   std::array<Border, 2> cone;   ///< towards vertices i and j
   std::array<Border, 2> plane;  ///< towards faces f1 and f2
 };
 
-/// Ids: vertices first, then faces, then the real tori in file order.
+/// The ids count the vertices first, then the faces, then the real tori, in the order of the file.
 struct File {
   std::string name;
   double r, R;
   std::vector<Vertex> vertices;
   std::vector<Face> faces;
   std::vector<Torus> tori;
-  int digits;  ///< most significant digits of any number in it
+  int digits;  ///< largest number of significant digits of any number in the file
 
   int firstFace() const { return static_cast<int>(vertices.size()); }
   int firstTorus() const { return firstFace() + static_cast<int>(faces.size()); }
-  /// Relative error of a number printed with that many digits.
+  /// Relative error of a number printed with `digits` digits.
   double rounding() const;
   [[noreturn]] void fail(int line, const std::string& message) const;
 };

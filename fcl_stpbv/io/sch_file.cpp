@@ -20,11 +20,11 @@ using namespace detail;
 using Eigen::Vector3d;
 using Triangle = std::array<int, 3>;
 
-// A file whose longest number has at least this many digits was not rounded: a double's shortest exact form
-// takes up to 17, and of many numbers one has 15.
+// A file whose longest number has at least this many digits was not rounded. The shortest exact form of a
+// double has up to 17 digits, and of many numbers at least one has 15.
 constexpr int kFullDigits = 15;
 
-// The k-gon behind a fan: sides between triangles that name each other fall away.
+// The k-gons behind the fans of triangles. The sides between two triangles that name each other are left out.
 class Fans {
  public:
   Fans(const sch::File& file, const std::vector<Triangle>& triangles) : file_(file), triangles_(triangles) {
@@ -39,7 +39,7 @@ class Fans {
 
   std::vector<StpBv::Ring> rings() {
     std::vector<std::vector<std::size_t>> groups(triangles_.size());
-    std::vector<std::size_t> order;  // as the groups' first triangles stand in the file
+    std::vector<std::size_t> order;  // the groups in the order of their first triangles in the file
     for (std::size_t f = 0; f < triangles_.size(); ++f) {
       std::vector<std::size_t>& group = groups[leader(f)];
       if (group.empty()) order.push_back(leader(f));
@@ -86,17 +86,18 @@ class Fans {
   const sch::File& file_;
   const std::vector<Triangle>& triangles_;
   std::vector<std::size_t> leader_;
-  std::vector<int> next_;  // along the ring at hand
+  std::vector<int> next_;  // next vertex along the present ring
 };
 
-// Compares the support function of a rebuilt volume with the file's, for each face, within the file's digits.
-// If it is smaller, a vertex lies outside of one of the file's balls; if it is larger, inside.
+// Compares the support function of a rebuilt volume with that of the file, for each face, to within the
+// file's digits. If the file's value is smaller, a vertex lies outside of one of the file's balls; if it is
+// larger, a vertex lies inside.
 void compare(const sch::File& file, const StpBv& volume) {
   for (const sch::Face& face : file.faces) {
     const Vector3d middle = (face.corner[0] + face.corner[1] + face.corner[2]) / 3;
     const Vector3d n = (middle - face.centre).normalized();
     const double claimed = n.dot(face.centre) + face.radius;
-    constexpr double kSlack = 8;  // the centre's three coordinates, and the radii
+    constexpr double kSlack = 8;  // for the centre's three coordinates and the radii
     const double tolerance =
         kSlack * file.rounding() * (face.centre.norm() + face.radius + face.corner[0].norm());
     const double off = volume.support(n) - claimed;

@@ -10,7 +10,7 @@
 namespace fcl_stpbv::detail::sch {
 namespace {
 
-// Shortest possible items: each of their tokens takes a character and a blank.
+// Least number of bytes of each item: each of its tokens takes a character and a blank.
 constexpr std::size_t kVertexBytes = 2 * 5;
 constexpr std::size_t kBorderBytes = 2 * 5;
 constexpr std::size_t kFaceBytes = 2 * 25;
@@ -20,7 +20,7 @@ int readId(TextScanner& in, const char* what) {
   return static_cast<int>(in.integer(what, 0, std::numeric_limits<int>::max()));
 }
 
-// Member by member: the order of reading must be the file's.
+// Member by member, because the fields must be read in the order of the file.
 Border readCone(TextScanner& in, const char* what) {
   Border cone;
   cone.id = readId(in, what);
@@ -73,8 +73,8 @@ Torus readTorus(TextScanner& in) {
 }  // namespace
 
 double File::rounding() const {
-  // A number printed with d digits is off by half a unit in its last place, 0.5e(1-d) of itself where it
-  // begins with a 1. Nothing is expected to be better than a few roundings of a double.
+  // A number printed with d digits is off by half a unit in its last place. That is 0.5e(1-d) of the number
+  // if it begins with a 1. No number is expected to be more exact than a few roundings of a double.
   constexpr double kFewRoundings = 16 * std::numeric_limits<double>::epsilon();
   return std::max(0.5 * std::pow(10.0, 1 - digits), kFewRoundings);
 }

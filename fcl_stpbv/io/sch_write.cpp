@@ -21,7 +21,7 @@ namespace {
 using namespace detail;
 using Eigen::Vector3d;
 
-// A rim of half a turn, as a flat right-angled triangle has, is still one region; the rest is rounding.
+// A rim of half a turn, as a flat right-angled triangle has, is still one region. The 1e-9 is for rounding.
 constexpr double kHalfTurn = kPi + 1e-9;
 
 void requireWritable(const StpBv& volume) {
@@ -72,8 +72,8 @@ class Writer {
   Vector3d along(int from, int to) const { return (vertex(to) - vertex(from)).normalized(); }
   double cosine(int a, int b) const { return (vertex(b) - vertex(a)).norm() / (2 * volume_.radii().rho); }
 
-  // Normal of the plane through a side and its ball's centre, which points into the face. Written with the
-  // unit normals at the side's ends instead of the centre, which is far away.
+  // Normal of the plane through a side and its ball's centre, which points into the face. It is computed from
+  // the unit normal at the side's start, because the centre is far away.
   Vector3d sideNormal(int face, int a, int b) const {
     return volume_.corner(face, a).cross(vertex(b) - vertex(a)).normalized();
   }
@@ -93,7 +93,7 @@ class Writer {
   void vertices() {
     line(volume_.vertexCount());
     std::vector<std::vector<std::pair<int, int>>> tori(
-        index(volume_.vertexCount()));  // (edge, its other vertex)
+        index(volume_.vertexCount()));  // for each vertex: (edge, its other vertex)
     for (int e = 0; e < volume_.edgeCount(); ++e) {
       const StpBv::Edge& edge = volume_.edges()[index(e)];
       tori[index(edge.vertex[0])].push_back({e, edge.vertex[1]});
@@ -108,8 +108,8 @@ class Writer {
     }
   }
 
-  // Triangle t of a face's fan has corners 0, t + 1, t + 2 of the ring. Its
-  // neighbour over a side from corner `a`:
+  // The neighbour of triangle t of a face's fan, over the side from corner `a` to corner `b`. The triangle
+  // has the corners 0, t + 1, t + 2 of the ring.
   int neighbour(int face, int t, int a, int b) const {
     const int size = static_cast<int>(ring(face).size()),
               triangle = firstFace() + firstTriangle_[index(face)] + t;
@@ -142,7 +142,7 @@ class Writer {
     line(j, cosine(i, j), -a);
   }
 
-  // The triangle of a face's fan that holds the side from a to b of its ring.
+  // The triangle of a face's fan that contains the side of the ring that starts at the vertex `a`.
   int triangleAt(int face, int a) const {
     const StpBv::Ring& corners = ring(face);
     const int at = static_cast<int>(std::find(corners.begin(), corners.end(), a) - corners.begin());
@@ -164,7 +164,8 @@ class Writer {
     }
   }
 
-  // Between the triangles t and t + 1 of a fan: side 31 of the first, side 12 of the second.
+  // The edge between the triangles t and t + 1 of a fan. It is side 31 of the first one and side 12 of the
+  // second.
   void innerEdge(int f, int t) {
     const int i = ring(f)[index(t + 2)], j = ring(f)[0];
     const double half = 0.5 * (vertex(i) - vertex(j)).norm(), rho = volume_.radii().rho;
@@ -178,8 +179,8 @@ class Writer {
   const StpBv& volume_;
   std::string text_;
   int triangleCount_ = 0;
-  std::vector<int> firstTriangle_;            // of each face's fan
-  std::map<std::array<int, 3>, int> edgeOf_;  // face, first and second vertex of a side in its ring
+  std::vector<int> firstTriangle_;            // number of the first triangle of each face's fan
+  std::map<std::array<int, 3>, int> edgeOf_;  // key: face, first and second vertex of a side in its ring
 };
 
 std::string schText(const StpBv& volume) {

@@ -1,7 +1,8 @@
 // A mask holds for one thread, and the kernel gives a signal of the process to any thread that does not block
 // it. So the signals that end a process get a handler at the first write:
-// 1. while nobody writes, it ends the process at once, and no write begins any more;
-// 2. while somebody does, it notes the signal, no further write begins, and the last one ends the process.
+// 1. while nobody writes, the handler ends the process at once, and no write begins any more;
+// 2. while somebody writes, the handler notes the signal, no further write begins, and the last writer ends
+//    the process.
 #include "fcl_stpbv/io/signals_held.h"
 
 #include <pthread.h>
@@ -19,8 +20,8 @@ constexpr std::array<int, 2> kSignalsOfWrites = {SIGXFSZ, SIGPIPE};
 constexpr std::array<int, 5> kEndingSignals = {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGXCPU};
 constexpr int kEnding = -1;
 
-std::atomic<int> writers{0};  // or kEnding
-std::atomic<int> noted{0};    // the signal to end by, 0 for none
+std::atomic<int> writers{0};  // number of writers, or kEnding
+std::atomic<int> noted{0};    // the signal that shall end the process, 0 for none
 static_assert(std::atomic<int>::is_always_lock_free, "a signal handler uses them");
 
 extern "C" void noteSignal(int signal);
@@ -38,7 +39,8 @@ void setAction(int signal, void (*handler)(int), int flags) {
   ::sigaction(signal, &action, nullptr);
 }
 
-// A signal to this thread, which does not block it, is delivered before raise() returns.
+// Ends the process by this signal. A signal to this thread, which does not block it, is delivered before
+// raise() returns.
 void endBy(int signal) {
   if (isAction(signal, noteSignal)) setAction(signal, SIG_DFL, 0);
   sigset_t one;
@@ -51,7 +53,8 @@ void endBy(int signal) {
 void endIfNobodyWrites() {
   for (int none = 0; noted != 0 && writers.compare_exchange_strong(none, kEnding); none = 0) {
     endBy(noted.exchange(0));
-    writers = 0;  // the application took it, by a handler of its own that is newer than ours
+    // The process goes on, because the application's own handler, newer than ours, took the signal.
+    writers = 0;
   }
 }
 
@@ -63,7 +66,7 @@ extern "C" void noteSignal(int signal) {
 }
 
 void installHandler() {
-  // The writers of a forked process's parent do not go on in it.
+  // The writers of the parent process do not go on in a forked process.
   static const int forks = pthread_atfork(nullptr, nullptr, [] { writers = 0; });
   static_cast<void>(forks);
   for (const int signal : kEndingSignals)
@@ -98,7 +101,7 @@ EndPutOff::EndPutOff() {
     if (noted == 0 && others >= 0 && writers.compare_exchange_strong(others, others + 1)) break;
     ::usleep(kMoment);
   }
-  installHandler();  // now, or it would undo the default action that another thread ends by
+  installHandler();  // not earlier: it would undo the default action by which another thread ends the process
 }
 
 EndPutOff::~EndPutOff() {

@@ -35,7 +35,7 @@ std::string stpbvText(const StpBv& volume) {
     for (int vertex : ring) text += " " + std::to_string(vertex);
     text += '\n';
   }
-  // A last word tells a whole file from one cut off inside its last number.
+  // The last word tells a complete file from one that was cut off inside its last number.
   return text + "end\n";
 }
 

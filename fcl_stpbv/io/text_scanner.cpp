@@ -17,7 +17,7 @@
 namespace fcl_stpbv::detail {
 namespace {
 
-constexpr std::size_t kLongestQuote = 40;  // a message stays on one line whatever the file holds
+constexpr std::size_t kLongestQuote = 40;  // characters; keeps a message on one line
 
 bool isBlank(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r' || c == '\v' || c == '\f'; }
 
@@ -148,7 +148,7 @@ long TextScanner::integer(std::string_view what, long least, long most) {
 
 int TextScanner::count(std::string_view what, int least, std::size_t bytesEach) {
   const long value = integer(what, least, std::numeric_limits<int>::max());
-  // The last item may go without the blank behind it.
+  // The last item needs no blank after it.
   const std::size_t fits = (text_.size() - at_ + 1) / bytesEach;
   if (static_cast<std::size_t>(value) > fits) {
     fail("says " + std::to_string(value) + " as " + std::string(what) +

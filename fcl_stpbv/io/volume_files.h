@@ -15,15 +15,15 @@ namespace fcl_stpbv {
 
 /// Writes the volume as `.stpbv`. The same volume gives the same bytes, and reading them back gives the same
 /// volume bit by bit. If the write fails or is interrupted, an existing file stays unchanged.
-/// @throws Error naming the file when it cannot be written.
+/// @throws Error naming the file if it cannot be written.
 void saveStpBv(const std::string& path, const StpBv& volume);
-/// The same to a stream. @throws Error when the stream cannot be written.
+/// saveStpBv() to a stream. @throws Error if the stream cannot be written.
 void saveStpBv(std::ostream& out, const StpBv& volume);
 
 /// Reads a `.stpbv`; the patches are rebuilt from the vertices and faces.
 /// @throws Error "file:line: got ..., expected ..." for a file that is damaged or no STP-BV.
 StpBv::Ptr loadStpBv(const std::string& path);
-/// The same from a stream; `name` stands for the file in messages. @throws Error as above.
+/// loadStpBv() from a stream; `name` stands for the file in messages. @throws Error as above.
 StpBv::Ptr loadStpBv(std::istream& in, const std::string& name = "stream");
 
 /// Whether a file that begins with this text claims to be `.stpbv`.
@@ -36,7 +36,7 @@ bool looksLikeStpBv(std::string_view text);
 /// @throws Error "file:line: got ..., expected ..." for a damaged file or another dimension than 3.
 std::vector<Eigen::Vector3d> loadQhullPoints(const std::string& path);
 
-/// The same from a text in memory; `name` stands for it in messages.
+/// loadQhullPoints() from a text in memory; `name` stands for it in messages.
 std::vector<Eigen::Vector3d> parseQhullPoints(std::string_view text, const std::string& name);
 
 /// Whether a text begins like a qhull file: a line with the dimension, then a line with one or three counts.
@@ -47,7 +47,7 @@ bool looksLikeQhull(std::string_view text);
 /// @throws Error naming the file when it cannot be written; also for a volume that the format cannot store:
 /// one or two vertices (no face), or an edge whose normals turn by more than half a turn.
 void saveSch(const std::string& path, const StpBv& volume);
-/// The same to a stream. @throws Error as above.
+/// saveSch() to a stream. @throws Error as above.
 void saveSch(std::ostream& out, const StpBv& volume);
 
 /// Reads a volume in sch-core's format. The file states some facts twice. They are compared to within the
@@ -56,7 +56,7 @@ void saveSch(std::ostream& out, const StpBv& volume);
 /// built anew from the vertices.
 /// @throws Error "file:line: what is wrong, what was expected".
 StpBv::Ptr loadSch(const std::string& path);
-/// The same from a stream; `name` stands for the file in messages. @throws Error as above.
+/// loadSch() from a stream; `name` stands for the file in messages. @throws Error as above.
 StpBv::Ptr loadSch(std::istream& in, const std::string& name = "stream");
 
 /// Whether a text begins like a file of sch-core: a line with the two radii, then a line with a count.
