@@ -1,5 +1,5 @@
 // --neutral, --pose and --trajectory, read in this order: a pose may leave joints out, which stay neutral.
-// What is beyond the joint limits is warned of.
+// Values beyond the joint limits give a warning.
 #include "fcl_stpbv/report/asked_postures.h"
 
 #include "fcl_stpbv/io/text_scanner.h"

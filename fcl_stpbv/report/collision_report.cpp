@@ -2,7 +2,7 @@
 // 1. the pair list with its reasons (robot/pair_list.h);
 // 2. each checked pair in the given posture or its closest one: distances of
 //    volumes, hulls and meshes, gradient;
-// 3. with --parts, both again with the links split that need it (robot/detail_choice.h);
+// 3. with --parts, both again, with those links split that need it (robot/detail_choice.h);
 // 4. how far the links' volumes exceed their meshes, and what each collision comes from.
 #include "fcl_stpbv/report/collision_report.h"
 
@@ -53,15 +53,15 @@ std::string nameOfSecond(const PairEntry& entry, const CollisionReport& report) 
   return entry.obstacle ? report.obstacles[at(entry.link2)].name : report.robot->links[at(entry.link2)].name;
 }
 
-// `srdf` is null without one.
+// `srdf` is null if there is none.
 bool isChecked(const PairEntry& entry, const CollisionReport& report, const SkipReasons* srdf) {
   if (entry.obstacle || !srdf) return entry.obstacle || checkedWithoutSrdf(entry.reason);
   const auto& links = report.robot->links;
   return srdf->of(links[at(entry.link1)].name, links[at(entry.link2)].name).empty();
 }
 
-// Follows the bodies of the checked pairs along the way points. For each entry of the list the first of its
-// pairs of bodies, and one past the last at the end.
+// Follows the bodies of the checked pairs along the way points. Returns for each entry of the list the index
+// of its first pair of bodies, and at the end the number of all pairs.
 std::vector<std::size_t> followTrajectory(const ReportRequest& request, const Trajectory& trajectory,
                                           const SkipReasons* srdf, CollisionReport& report) {
   std::vector<CheckedPair> pairs;
@@ -82,8 +82,8 @@ std::vector<std::size_t> followTrajectory(const ReportRequest& request, const Tr
   return first;
 }
 
-// Where the bodies first to last of the trajectory's are closest on it. The closest approach is found to a
-// precision; a contact may be less deep than that.
+// Sets the configuration in which the trajectory's pairs of bodies from `first` to `last` are closest. The
+// closest approach is found only to a precision, and a contact may be less deep than that.
 void placeOnTrajectory(const TrajectoryReport& trajectory, std::size_t first, std::size_t last,
                        PairReport& pair) {
   if (first == last) return;
@@ -122,8 +122,9 @@ PairReport said(const PairEntry& entry, const CollisionReport& report, const Ski
   return pair;
 }
 
-// Where the volumes meet, or come closer than what they exceed their hulls by: farther apart the volumes'
-// distance says enough. A contradiction is explained where it was found.
+// Measures the meshes if the volumes meet, or if they are closer than the amounts by which they exceed their
+// hulls. If they are farther apart, the volumes' distance says enough. A contradiction to the SRDF is
+// explained in the configuration where it was found.
 void explain(const std::vector<CheckedPair>& bodies, double margin, PairCauses& causes, PairReport& pair) {
   if (pair.colliding || pair.answer.distance <= std::max(margin, pair.overCover1 + pair.overCover2)) {
     const PairCause found = causes.explain(bodies, pair.configuration, margin);
@@ -178,7 +179,7 @@ void examine(const ReportRequest& request, const PairListOptions& search, const 
     }
     const std::vector<CheckedPair> bodies = bodiesOf(*report.geometry, entry);
     measurePair(report, bodies, pair);
-    if (pair.answer.status == DistanceStatus::invalid)  // no answer is not clear
+    if (pair.answer.status == DistanceStatus::invalid)  // without an answer the pair is not known to be clear
       throw Error(report.robot->path + ": the distance of " + pair.link1 + " and " + pair.link2 +
                   " cannot be computed; look for numbers out of all proportion");
     pair.colliding |= pair.answer.distance <= search.margin;
@@ -193,8 +194,8 @@ void examine(const ReportRequest& request, const PairListOptions& search, const 
   }
 }
 
-// Pairs whose meshes do not meet although their hulls do: in the configuration that each is reported in, and
-// in the neutral one where the pair list leaves it out as colliding there.
+// Pairs whose hulls meet although their meshes do not: in the configuration in which the pair is reported,
+// and in the neutral posture if the pair list leaves the pair out because it collides there.
 std::vector<SceneNeed> hullOnly(const CollisionReport& report, PairCauses& causes,
                                 const Eigen::VectorXd& neutral) {
   std::vector<SceneNeed> needs;
@@ -210,8 +211,8 @@ std::vector<SceneNeed> hullOnly(const CollisionReport& report, PairCauses& cause
   return needs;
 }
 
-// The volumes contain the meshes, and within the two excesses of their witness
-// points there are points of the meshes.
+// Bounds the meshes' distances from above. The volumes contain the meshes, and within each volume's excess of
+// its witness point there is a point of the mesh.
 void boundMeshDistances(const RobotGeometry* scene, PairCauses& causes, VolumeCache& cache,
                         CollisionReport& report) {
   const auto fitOf = [&](const Body& body) {
@@ -265,7 +266,7 @@ CollisionReport makeReport(const ReportRequest& request) {
   };
   if (request.partsAll > 1) parts.splitAll(request.partsAll);
   examineAgain({});
-  constexpr int kMostRefinements = 3;  // two, four and eight parts
+  constexpr int kMostRefinements = 3;  // into two, four and eight parts
   for (int k = 0; request.partsAuto && k < kMostRefinements; ++k) {
     const std::set<LinkPair> changed = parts.refine(hullOnly(report, causes, postures.neutral));
     if (changed.empty()) break;

@@ -22,94 +22,105 @@ namespace fcl_stpbv::report {
 
 struct ReportRequest {
   RobotFiles files;
-  std::string pose;        ///< a state's name or a JSON file, "" for each pair's closest configuration
-  std::string trajectory;  ///< way points that pairs are followed along (trajectory_file.h), "" for none
-  std::string neutral;     ///< as pose, "" for all joints at zero or at the limit nearest to it
-  std::string polyhedra;   ///< folder of published ones, "" for none
-  bool partsAuto = false;  ///< concave links are split for the pairs that collide by their hulls alone
-  bool partsForAllPairs = false;  ///< and then for all the pairs of these links
-  int partsAll = 1;               ///< or all of them into so many at most, for all pairs
-  bool mayCheckNothing = false;   ///< no error where no pair is left to check
+  std::string pose;        ///< a state's name or a JSON file; "" for each pair's closest configuration
+  std::string trajectory;  ///< way points along which pairs are followed (trajectory_file.h); "" for none
+  std::string neutral;     ///< like `pose`; "" for all joints at zero or at the limit nearest to it
+  std::string polyhedra;   ///< folder of published polyhedra; "" for none
+  bool partsAuto = false;  ///< split concave links, for those pairs that collide only by their hulls
+  bool partsForAllPairs = false;  ///< use these parts for all pairs of such links, too
+  int partsAll = 1;               ///< split all links into at most this many parts, for all pairs
+  bool mayCheckNothing = false;   ///< no error if no pair is left to check
   PairListOptions search;
 };
 
-/// One pair of links, or a link and an obstacle, in the posture asked for or in its closest configuration.
+/// One pair of links, or a link and an obstacle, in the requested posture or in its closest configuration.
 struct PairReport {
   LinkPair links;
-  std::string link1, link2;  ///< their names, or link2 an obstacle's
-  std::string reason;        ///< what the search says
-  std::string srdfReason;    ///< what the SRDF says, "" where it says nothing
-  bool checked = true;  ///< false where the SRDF or, without one, the search leaves the pair of links out
+  std::string link1, link2;  ///< names of the links; link2 may be the name of an obstacle
+  std::string reason;        ///< reason that the search gives
+  std::string srdfReason;    ///< reason that the SRDF gives, "" if it gives none
+  bool checked = true;  ///< false if the SRDF leaves the pair of links out, or, without an SRDF, the search
   DistanceAnswer answer;
-  bool colliding = false;      ///< the distance is not above the margin asked for
-  int body1 = -1, body2 = -1;  ///< the closest bodies; body2 of an obstacle counts on from the robot's
+  /// The distance is not above the requested margin.
+  bool colliding = false;
+  /// The closest bodies; numbers of obstacles follow those of the robot's bodies.
+  int body1 = -1, body2 = -1;
   std::map<std::string, double> gradient;
-  double overCover1 = 0, overCover2 = 0;  ///< of the two surfaces over their hulls along the normal (m)
-  double hullDistance = 0;                ///< of the two hulls or primitives, NaN where they overlap (m)
+  double overCover1 = 0, overCover2 = 0;  ///< excess of each surface over its hull along the normal (m)
+  double hullDistance = 0;  ///< distance of the two hulls or primitives (m), NaN if they overlap
   /// Lipschitz constant of the normal: its largest change per metre of relative translation, for bodies in
   /// contact or apart: 1/(r1 + r2) (1/m). Infinite if neither body has an r (docs/theory.md, 6).
   double lipschitz = std::numeric_limits<double>::infinity();
   /// Distance of the meshes or primitives themselves (m); 0 if they meet. NaN if it was not measured, because
-  /// the volumes are farther apart than they exceed the hulls.
+  /// the distance of the volumes is larger than their excess over the hulls.
   double meshDistance = std::numeric_limits<double>::quiet_NaN();
   /// Upper bound on `meshDistance`, measured or not: the distance of the volumes plus the excess of each over
   /// its mesh (m). NaN if the volumes meet.
   double meshDistanceMost = std::numeric_limits<double>::quiet_NaN();
-  /// "meshes meet", "hull only" or "margin only" (pair_cause.h): what the collision comes from, or the one
-  /// that contradicts the SRDF, in `closest`; "" without one.
+  /// Cause of the collision: "meshes meet", "hull only" or "margin only" (pair_cause.h). For a pair that
+  /// contradicts the SRDF, the cause in the configuration `closest`. "" if there is neither.
   std::string cause;
-  double minDistance = 0;  ///< least found by the search (m)
+  double minDistance = 0;  ///< least distance that the search found (m)
   double probabilityBound = 1;
   double security = 0, influence = 0;
-  Eigen::VectorXd configuration;  ///< of `answer`
+  Eigen::VectorXd configuration;  ///< configuration of `answer`
   double time =
-      std::numeric_limits<double>::quiet_NaN();  ///< of `configuration` on the trajectory, NaN without one
-  Eigen::VectorXd closest;                       ///< where minDistance was found
+      std::numeric_limits<double>::quiet_NaN();  ///< time of `configuration` on the trajectory, else NaN
+  Eigen::VectorXd closest;                       ///< configuration in which minDistance was found
 
-  bool freeAlong = false;        ///< proven free all along the trajectory
-  bool stopsTrajectory = false;  ///< has its first contact, or the first place where nothing is decided
-  bool contradictsSrdf = false;  ///< which leaves the pair out as never or adjacent, and it collides
+  /// Proven free all along the trajectory.
+  bool freeAlong = false;
+  /// Has the trajectory's first contact, or the first place where nothing is decided.
+  bool stopsTrajectory = false;
+  bool contradictsSrdf = false;  ///< the SRDF leaves the pair out as never or adjacent, but it collides
 };
 
 /// The cost of convex parts: rows and time of a controller that keeps all checked pairs of bodies apart.
 struct RowCost {
   int rows = 0;
-  int live = 0;          ///< of these, how many are not constant
-  double usPerTick = 0;  ///< with their Jacobian, in small steps
+  int live = 0;          ///< number of rows that are not constant
+  double usPerTick = 0;  ///< time of the rows with their Jacobian, in small steps (us)
 };
 
-constexpr double kHandOver = 0.1;  ///< m
+constexpr double kHandOver = 0.1;  ///< m; below this distance convex parts take over from whole bodies
 
 struct CollisionReport {
   std::shared_ptr<const RobotModel> robot;
   std::shared_ptr<const RobotGeometry> geometry;
   std::shared_ptr<const Kinematics> kinematics;
-  std::shared_ptr<const Srdf> srdf;  ///< null without one
+  std::shared_ptr<const Srdf> srdf;  ///< null if there is none
   std::vector<Obstacle> obstacles;
-  std::vector<std::string> meshFiles;  ///< that were read
+  std::vector<std::string> meshFiles;  ///< mesh files that were read
   std::vector<std::string> warnings;
-  std::vector<MeshFit> fits;                ///< one a body
-  std::vector<std::string> skipped;         ///< shapes left out as wrong, which nothing was checked against
-  std::vector<PolyhedronReport> polyhedra;  ///< one a body, or none where none were asked for
-  /// Checked ones first: that which stops the trajectory, then the closest first.
+  std::vector<MeshFit> fits;         ///< one for each body
+  std::vector<std::string> skipped;  ///< wrong shapes that were left out; nothing was checked against them
+  std::vector<PolyhedronReport> polyhedra;  ///< one for each body; empty if none were requested
+  /// Checked pairs first. Among them, the pair that stops the trajectory is first; the others are sorted by
+  /// distance.
   std::vector<PairReport> pairs;
-  bool pairsOfBodies = false;   ///< pairs name bodies, not links
-  std::vector<PairEntry> list;  ///< what the search found
+  bool pairsOfBodies = false;   ///< pairs name bodies instead of links
+  std::vector<PairEntry> list;  ///< result of the search
   detail::NeutralPosture neutral;
-  std::string pose;                            ///< "" where each pair is in its own closest configuration
-  std::optional<TrajectoryReport> trajectory;  ///< its pairs of bodies are `trajectoryPairs`
-  std::vector<std::pair<std::string, std::string>> trajectoryPairs;  ///< their links, or link and obstacle
+  /// "" if each pair is in its own closest configuration.
+  std::string pose;
+  /// Its pairs of bodies are those of `trajectoryPairs`.
+  std::optional<TrajectoryReport> trajectory;
+  /// Names of the links of each pair, or of link and obstacle.
+  std::vector<std::pair<std::string, std::string>> trajectoryPairs;
   double margin = 0;  ///< a distance not above it is a collision (m)
   int checked = 0, colliding = 0;
-  std::map<std::string, int> causes;    ///< of the checked pairs in collision, how many of each
-  double minDistance = 0;               ///< of the checked pairs (m)
-  double nsPerPair = 0, usPerTick = 0;  ///< of all checked pairs with their Jacobian, in small steps
+  /// Number of checked pairs in collision for each cause.
+  std::map<std::string, int> causes;
+  /// Least distance of the checked pairs (m).
+  double minDistance = 0;
+  /// Time of one and of all checked pairs with their Jacobian, in small steps.
+  double nsPerPair = 0, usPerTick = 0;
   /// The costs with whole bodies, with parts, and with parts and a hand-over at kHandOver; 0 without parts.
   RowCost wholeCost, partsCost, handOverCost;
 
   /// Whether the pair uses the convex parts of its links.
   bool isByParts(const PairReport& pair) const { return geometry->byParts.count(pair.links) > 0; }
-  /// "link1 - link2" of one of `trajectoryPairs`.
+  /// "link1 - link2" for one of `trajectoryPairs`.
   std::string trajectoryPair(int pair) const {
     const auto& [first, second] = trajectoryPairs[static_cast<std::size_t>(pair)];
     return first + " - " + second;

@@ -18,7 +18,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-// A corner of each piece.
+// One corner of each piece.
 std::vector<Vector3d> cornersOf(const MeshPieces& mesh) {
   std::vector<Vector3d> corners;
   std::vector<char> seen(mesh.closed.size(), 0);
@@ -55,7 +55,7 @@ double ExactBody::volume() const {
   double sum = 0;
   const Vector3d& o = solid_->triangles().front()[0];  // near the triangles, so that no digits are lost
   for (const Triangle& t : solid_->triangles()) sum += (t[0] - o).dot((t[1] - o).cross(t[2] - o)) / 6;
-  return std::abs(sum);  // inward triangles, as a mirrored mesh has them, make it negative
+  return std::abs(sum);  // the sum is negative if the triangles face inward, as in a mirrored mesh
 }
 
 }  // namespace fcl_stpbv::report

@@ -22,13 +22,13 @@ class ExactBody {
   const fcl::CollisionGeometryd& shape() const { return *shape_; }
   /// The mesh's convex hull; a primitive is its own.
   const fcl::CollisionGeometryd& hull() const { return *hull_; }
-  /// Null for a primitive and for points without triangles.
+  /// Null for a primitive, and for points without triangles.
   const MeshSolid* solid() const { return solid_.get(); }
 
   /// Whether the mesh has an inside everywhere; true without a mesh.
   bool closed() const { return !solid_ || solid_->closed(); }
-  /// Volume that a closed mesh encloses (m^3): the sum over its pieces. NaN
-  /// for an open one and without a mesh.
+  /// Volume that a closed mesh encloses (m^3): the sum over its pieces. NaN for an open mesh and without a
+  /// mesh.
   double volume() const;
   /// A point of each connected piece of the mesh, or of the primitive.
   const std::vector<Eigen::Vector3d>& partPoints() const { return partPoints_; }

@@ -29,7 +29,7 @@ nlohmann::json manifestOf(const fs::path& folder) {
   return manifest;
 }
 
-// Whether `path` is in the folder or in one of its folders.
+// Whether `path` is in the folder or in a folder below it.
 bool isIn(const fs::path& folder, const std::string& path) {
   std::error_code ignored;
   const fs::path real = fs::weakly_canonical(path, ignored), around = fs::weakly_canonical(folder, ignored);

@@ -15,7 +15,7 @@ inline constexpr const char* kManifest = "manifest.json";
 /// changed since, is an error, so that no file of the user is lost.
 /// @param inputs files that the conversion reads, none of which may lie in the folder
 /// @param force files that a conversion wrote may have been changed since
-/// @return the key that the folder's manifest names, "" unless all its files are as they were written.
+/// @return the key in the folder's manifest, "" unless all files of the folder are as they were written.
 /// @throws Error naming the folder or file, and what would work.
 std::string keyOfFolder(const std::string& folder, const std::vector<std::string>& inputs, bool force);
 

@@ -21,7 +21,7 @@ namespace {
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-/// All that a search reads, as text.
+/// All inputs of a search, as text.
 class Question {
  public:
   Question(const Kinematics& kinematics, const RobotGeometry& geometry, const Srdf* srdf,
@@ -47,7 +47,7 @@ class Question {
     search(options);
   }
 
-  /// Whether that is all: not where a body is neither a volume nor one convex shape.
+  /// Whether the text is complete. It is not if a body is neither a volume nor one convex shape.
   bool whole() const { return whole_; }
   const std::string& text() const { return text_; }
 
@@ -119,7 +119,7 @@ class Question {
   bool whole_ = true;
 };
 
-constexpr std::size_t kFields = 12;  // of an entry, before its configuration
+constexpr std::size_t kFields = 12;  // number of values of an entry before its configuration
 
 std::vector<double> toNumbers(const std::vector<PairEntry>& list) {
   std::vector<double> numbers;
@@ -177,7 +177,8 @@ std::vector<PairEntry> keptPairList(const std::shared_ptr<const Kinematics>& kin
   return numbers.size() % (kFields + coordinates) == 0 ? toList(numbers, coordinates) : search();
 }
 
-// The numbers: colliding here and there, which of the SRDF's states is better or -1, that posture.
+// The stored numbers: number of colliding pairs in the neutral posture and in the better one; index of the
+// SRDF's state that is better, or -1; the named pairs; the better posture.
 NeutralPosture keptNeutral(const std::shared_ptr<const Kinematics>& kinematics,
                            const std::shared_ptr<const RobotGeometry>& geometry,
                            const std::vector<PairEntry>& list, const Srdf* srdf,

@@ -10,13 +10,13 @@
 
 namespace fcl_stpbv::report {
 
-/// As pairList(). A list in the cache is used if robot, bodies, obstacles, SRDF and options are the same. A
-/// list whose proofs were interrupted by `proofSeconds`, or which is too long, is not stored.
+/// pairList() with a cache. A stored list is used if robot, bodies, obstacles, SRDF and options are the same.
+/// A list whose proofs were interrupted by `proofSeconds`, or which is too long, is not stored.
 std::vector<PairEntry> keptPairList(const std::shared_ptr<const Kinematics>& kinematics,
                                     const std::shared_ptr<const RobotGeometry>& geometry, const Srdf* srdf,
                                     const PairListOptions& options, detail::VolumeCache& cache);
 
-/// As judgeNeutral() of such a list, kept likewise.
+/// judgeNeutral() of such a list, with the same cache.
 detail::NeutralPosture keptNeutral(const std::shared_ptr<const Kinematics>& kinematics,
                                    const std::shared_ptr<const RobotGeometry>& geometry,
                                    const std::vector<PairEntry>& list, const Srdf* srdf,

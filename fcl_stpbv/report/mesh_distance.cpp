@@ -20,7 +20,7 @@ constexpr double kWithin =
 
 bool holdsPart(const ExactBody& outer, const Eigen::Isometry3d& poseOuter, const ExactBody& inner,
                const Eigen::Isometry3d& poseInner) {
-  if (!outer.solid()) return false;  // a primitive is solid: its distance tells
+  if (!outer.solid()) return false;  // a primitive is solid: its distance is 0 then
   const fcl::AABBd& box = outer.shape().aabb_local;
   const Eigen::Isometry3d between = poseOuter.inverse() * poseInner;
   return std::any_of(inner.partPoints().begin(), inner.partPoints().end(), [&](const Eigen::Vector3d& p) {
@@ -29,7 +29,7 @@ bool holdsPart(const ExactBody& outer, const Eigen::Isometry3d& poseOuter, const
   });
 }
 
-// FCL's distance of two meshes, negative where it has none.
+// FCL's distance of two meshes; negative if FCL gives none.
 double fclGuess(const ExactBody& a, const Eigen::Isometry3d& poseA, const ExactBody& b,
                 const Eigen::Isometry3d& poseB) {
   if (!a.solid() || !b.solid()) return -1;
@@ -52,7 +52,7 @@ MeshDistance meshDistance(const ExactBody& a, const Eigen::Isometry3d& poseA, co
   double low = std::max(0.0, atLeast), step = kWithin;
   const double guess = fclGuess(a, poseA, b, poseB) - kWithin / 2;
   if (guess > low && farther(guess)) low = guess;
-  // Up in growing steps from what is known, one where the guess was right, then in halves.
+  // Increases the distance in growing steps; one step is enough if the guess was right. Then bisects.
   double high = low + step;
   while (farther(high)) {
     low = high;
@@ -60,7 +60,7 @@ MeshDistance meshDistance(const ExactBody& a, const Eigen::Isometry3d& poseA, co
   }
   while (high - low > kWithin) {
     const double middle = 0.5 * (low + high);
-    if (middle <= low || middle >= high) break;  // lengths so large that they have no finer digits
+    if (middle <= low || middle >= high) break;  // lengths so large that there is no double in between
     (farther(middle) ? low : high) = middle;
   }
   return {low, high};

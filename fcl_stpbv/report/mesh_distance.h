@@ -10,8 +10,8 @@ struct MeshDistance {
   double lower = 0, upper = 0;
 };
 
-/// Distance of two bodies (m). They meet where their surfaces have a common point, or where a part of one
-/// lies inside the other (MeshSolid::holds; certain where the outer one is closed, a hollow in it included).
+/// Distance of two bodies (m). They meet if their surfaces have a common point, or if a part of one lies
+/// inside the other (MeshSolid::holds; this is certain if the outer mesh is closed, also if it is hollow).
 ///
 /// For two meshes, FCL's distance is a first guess, and two threshold tests verify it (isFartherThan() in
 /// adapter/fcl_distance.h). If they fail, and for a mesh and a primitive (FCL's GJK may stop early,

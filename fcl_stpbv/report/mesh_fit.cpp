@@ -15,7 +15,7 @@ using namespace detail;
 
 namespace {
 
-// Of a whole body.
+// The fit of a whole body.
 MeshFit measured(const Body& body, const ExactBody& exact) {
   MeshFit fit;
   fit.closed = exact.closed();
@@ -27,12 +27,12 @@ MeshFit measured(const Body& body, const ExactBody& exact) {
   return fit;
 }
 
-// As the cache keeps it: finite numbers, 0 for no ratio.
+// The fit as the cache stores it: as finite numbers, with 0 in place of a missing ratio.
 std::vector<double> toNumbers(const MeshFit& fit) {
   return {fit.hullExcess, std::isfinite(fit.volumeRatio) ? fit.volumeRatio : 0.0, fit.closed ? 1.0 : 0.0};
 }
 
-// With their number before them, so that no two contents give the same bytes.
+// Appends the number of values before their bytes, so that no two contents give the same bytes.
 template <class T>
 void appendBytes(std::string& content, const std::vector<T>& values) {
   content += std::to_string(values.size()) + ' ';

@@ -11,18 +11,19 @@
 namespace fcl_stpbv::report {
 
 struct MeshFit {
-  /// Largest distance of a point of the hull's surface from the mesh's
-  /// triangles (m), at most. 0 for a primitive.
+  /// Upper bound on the distance of any point of the hull's surface from the mesh's triangles (m). 0 for a
+  /// primitive.
   double hullExcess = 0;
-  /// The same of the volume's surface, at most: the volume exceeds the hull by `Body::cover` at most.
+  /// The same for the volume's surface. It is larger by `Body::cover`, by which the volume exceeds the hull
+  /// at most.
   double volumeExcess = 0;
-  /// Volume enclosed by the smooth surface as a multiple of the mesh's or the primitive's; NaN where the mesh
-  /// is open, the body flat or a part.
+  /// Volume enclosed by the smooth surface as a multiple of the volume of the mesh or the primitive. NaN if
+  /// the mesh is open or the body is flat or a part.
   double volumeRatio = std::numeric_limits<double>::quiet_NaN();
   bool closed = true;  ///< ExactBody::closed(); true for a part
 };
 
-/// All that a mesh's body is made of: its volume, the mesh file and, of a part, the hull.
+/// All data of a mesh's body, as bytes: its volume, the mesh file and, for a part, the hull.
 std::string contentOf(const Body& body);
 
 /// Uses the cache. `exact`, which returns the body's exact shape, is only called if the cache has no entry.

@@ -35,7 +35,7 @@ const std::vector<std::string> kOfAnswer{
     "warnings",          "skipped", "violations", "active",     "conflict", "conflict_limits",
     "without_collisions"};
 
-/// A joint's value beside the posture would count for nothing.
+/// Refuses other keys beside the posture, because a joint's value there would have no effect.
 void refuseBeside(const std::string& where, const nlohmann::json& json, const std::vector<std::string>& keys,
                   const std::string& whose) {
   for (const auto& [key, value] : json.items()) {
@@ -47,7 +47,7 @@ void refuseBeside(const std::string& where, const nlohmann::json& json, const st
   }
 }
 
-/// The joints of an answer of find_posture, its member `q`. Where it has the base matters to obstacles alone.
+/// The joints of an answer of find_posture, its member `q`. The base's pose in `q` matters only to obstacles.
 nlohmann::json jointsOfAnswer(const std::string& path, const nlohmann::json& q, const Kinematics& kinematics,
                               bool obstacles) {
   const std::vector<std::string>& own = kinematics.names();
@@ -75,7 +75,8 @@ nlohmann::json betterOfReport(const std::string& path, const nlohmann::json& neu
 // A configuration from a JSON object of joints' or coordinates' values, or a list of all coordinates.
 Eigen::VectorXd poseFromJson(const std::string& path, const Kinematics& kinematics, Eigen::VectorXd rest,
                              bool obstacles) {
-  // A joint value larger than any robot's is a mistake, and past 1e9 its sine has no exact digit left.
+  // Largest value of a joint. A larger one than any robot's is a mistake, and past 1e9 its sine has no exact
+  // digit left.
   constexpr double kMost = 1e6;
   const auto values = [&](const nlohmann::json& json) {
     const auto list = json.is_array() ? json.get<std::vector<double>>() : std::vector{json.get<double>()};
@@ -140,7 +141,7 @@ Eigen::VectorXd namedPosture(const std::string& option, const std::string& name,
   if (isFile && isState)
     throw Error(option + " " + name + ": is a state of the SRDF and a file; give ./" + name +
                 " for the file, or rename it");
-  if (isFile) return poseFromJson(name, kinematics, rest, obstacles);  // a pipe, too
+  if (isFile) return poseFromJson(name, kinematics, rest, obstacles);  // also a pipe
   if (!srdf)
     throw Error(option + " " + name +
                 ": no such file, and no SRDF with postures; give --srdf or a JSON file");
@@ -153,7 +154,7 @@ Eigen::VectorXd namedPosture(const std::string& option, const std::string& name,
 
 std::string limitWarning(const std::string& name, const std::vector<Eigen::VectorXd>& postures,
                          const Kinematics& kinematics, const std::string& consequence) {
-  constexpr double kOff = 1e-6;  // what a rounded number is off by (rad or m)
+  constexpr double kOff = 1e-6;  // error of a rounded number (rad or m)
   std::string first;
   int more = -1;
   for (const JointModel& joint : kinematics.robot().joints) {

@@ -20,7 +20,7 @@ namespace {
 using Eigen::Vector3d;
 using Support = std::function<Vector3d(const Vector3d&)>;  ///< the body's furthest point along a unit vector
 
-// A point that the hull of the others lacks, and by how much.
+// A point of the body outside the hull of the other points, and by how much (m).
 struct Missing {
   double gap;
   Vector3d point;

@@ -5,7 +5,7 @@
 
 namespace fcl_stpbv::report {
 
-extern const std::string_view kPageHtml;  ///< with marks where the others and the report go in
+extern const std::string_view kPageHtml;  ///< with marks where the other files and the report are inserted
 extern const std::string_view kPageStyle;
 extern const std::string_view kPageScript;
 extern const std::string_view kPageThree;  ///< three.js and its orbit controls

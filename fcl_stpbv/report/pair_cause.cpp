@@ -84,7 +84,7 @@ const std::string& PairCauses::contentDigest(const Body& body) {
   return known;
 }
 
-// All that measured() reads; none where a body is no mesh.
+// Everything that measured() reads, as text; no value if a body is no mesh.
 std::optional<std::string> PairCauses::question(const std::vector<CheckedPair>& bodies,
                                                 const Eigen::VectorXd& q, double margin) {
   Kinematics::State state = kinematics_->makeState();
@@ -112,7 +112,7 @@ std::optional<std::string> PairCauses::question(const std::vector<CheckedPair>& 
   return text;
 }
 
-// Body by body, nearest first.
+// Measures one pair of bodies after the other, nearest first.
 PairCause PairCauses::measured(const std::vector<CheckedPair>& bodies, const Eigen::VectorXd& q,
                                double margin) {
   ConstraintOptions options;
@@ -129,7 +129,7 @@ PairCause PairCauses::measured(const std::vector<CheckedPair>& bodies, const Eig
     const int whole = robot_->bodies[at(body)].partOf;
     return whole < 0 ? body : whole;
   };
-  std::set<std::pair<int, int>> measured;  // parts share their mesh
+  std::set<std::pair<int, int>> measured;  // pairs of whole bodies; parts share their mesh
   for (const int row : order) {
     const Placed a = first(bodies[at(row)], constraints.state()),
                  b = second(bodies[at(row)], constraints.state());

@@ -16,31 +16,31 @@ namespace fcl_stpbv::report {
 
 inline constexpr const char* kMeshesMeet = "meshes meet";
 inline constexpr const char* kHullOnly = "hull only";      ///< the convex hulls meet, the meshes do not
-inline constexpr const char* kMarginOnly = "margin only";  ///< neither do the hulls
-/// What is found about a pair of links, or a link and an obstacle, in one configuration.
+inline constexpr const char* kMarginOnly = "margin only";  ///< the volumes meet, the hulls do not
+/// Result for a pair of links, or a link and an obstacle, in one configuration.
 struct PairCause {
-  double meshDistance = 0;  ///< least of all pairs of their bodies, 0 where two of them meet (m)
-  std::string cause;        ///< one of the above; "" where the volumes are farther apart than the margin
+  double meshDistance = 0;  ///< least of all pairs of their bodies, 0 if two of them meet (m)
+  std::string cause;        ///< one of the above; "" if the volumes are farther apart than the margin
 };
 
 /// Measures the meshes behind volumes. Each file is read again when it is first needed, once for all bodies
 /// that it stands for, and kept.
 class PairCauses {
  public:
-  /// `scene`: the bodies behind `obstacles`, in their order. With a `cache`, which must outlive this, what is
-  /// found about pairs of meshes is kept in it.
+  /// `scene`: the bodies behind `obstacles`, in their order. Results for pairs of meshes are stored in
+  /// `cache` if it is given; it must outlive this object.
   PairCauses(std::shared_ptr<const Kinematics> kinematics, std::shared_ptr<const RobotGeometry> robot,
              std::vector<Obstacle> obstacles, std::shared_ptr<const RobotGeometry> scene,
              detail::VolumeCache* cache = nullptr);
 
-  /// A distance not above `margin` (m) is a collision, of volumes, hulls and meshes alike, but meshes meet at
-  /// 0 at the latest where it is negative. `bodies` are those of one pair of links.
+  /// Volumes, hulls and meshes collide if their distance is not above `margin` (m). Meshes at the distance 0
+  /// collide also if the margin is negative. `bodies` are those of one pair of links.
   PairCause explain(const std::vector<CheckedPair>& bodies, const Eigen::VectorXd& q, double margin);
 
-  /// The same robot with other parts from now on.
+  /// Uses the same robot with other parts from now on.
   void use(std::shared_ptr<const RobotGeometry> robot);
 
-  /// What a body of the robot or the scene stands for; of a part, the whole mesh.
+  /// The exact body behind a body of the robot or the scene; for a part it is the whole mesh.
   const ExactBody& exact(const Body& body);
 
  private:
@@ -61,8 +61,8 @@ class PairCauses {
   std::shared_ptr<const RobotGeometry> robot_, scene_;
   std::vector<Obstacle> obstacles_;
   detail::VolumeCache* cache_;
-  std::map<const Body*, std::string> digests_;  // of contentOf(), robot_'s and scene_'s
-  // By file and scale, or by the primitive itself.
+  std::map<const Body*, std::string> digests_;  // of contentOf() of the bodies in robot_ and scene_
+  // Key: file and scale, or the primitive itself.
   std::map<std::tuple<std::string, double, double, double, const void*>, std::unique_ptr<ExactBody>> exact_;
   std::map<const Body*, std::shared_ptr<const fcl::CollisionGeometryd>> partHulls_;
 };

@@ -1,7 +1,7 @@
 // A pair in one configuration.
 // 1. Distance, normal and gradient of its bodies.
-// 2. The over-cover of each along that normal: the difference of two support functions.
-// 3. The distance of what they cover, hulls and primitives, where these are apart.
+// 2. The over-cover of each body along that normal: the difference of two support functions.
+// 3. The distance of the shapes that the bodies cover, hulls and primitives, if these are apart.
 #include "fcl_stpbv/report/pair_measure.h"
 
 #include <algorithm>
@@ -16,8 +16,8 @@ using namespace detail;
 
 namespace {
 
-// A body or an obstacle in its place, and what it covers: a primitive, or as a polyhedron the hull of all the
-// mesh's points, also under a reduced volume.
+// A body or an obstacle at its pose, and the shape that it covers: a primitive, or the hull of all points of
+// the mesh as a polyhedron. It is the same hull for a reduced volume.
 struct Placed {
   const fcl::CollisionGeometryd* body;
   std::shared_ptr<const fcl::CollisionGeometryd> hull;
@@ -62,7 +62,7 @@ void covers(const CollisionReport& report, const CheckedPair& both, const Kinema
   pair.hullDistance = std::numeric_limits<double>::quiet_NaN();
   Shape a, b;
   if (!shapeOf(*first.hull, a) || !shapeOf(*second.hull, b)) return;
-  if (isFartherThan(0.0, a, first.pose, b, second.pose))  // a depth takes long, and is not asked for
+  if (isFartherThan(0.0, a, first.pose, b, second.pose))  // the depth would take long and is not needed
     pair.hullDistance = distance(a, first.pose, b, second.pose).distance;
 }
 

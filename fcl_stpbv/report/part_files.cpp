@@ -1,4 +1,5 @@
-// A mesh and a volume for each part, named after its link; then what is known of them, and URDF and SRDF.
+// Makes a mesh and a volume for each part, named after its link; then the manifest with their bounds, the
+// URDF and the SRDF.
 #include "fcl_stpbv/report/part_files.h"
 
 #include <algorithm>
@@ -25,7 +26,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The hull of a part; the coordinates are written so that they read back exactly.
+// The hull of a part as an OBJ file; the coordinates are written so that they read back exactly.
 std::string objOf(const std::vector<Eigen::Vector3d>& points) {
   std::string text = "# A convex part, by urdf_to_stpbv. Metres.\n";
   std::map<std::array<double, 3>, int> number;
@@ -57,7 +58,7 @@ PartFiles::PartFiles(const RobotConversion& conversion, const CollisionReport& r
       report_(report),
       hulls_(report.geometry, conversion.report.files.geometry.cacheFolder) {}
 
-// Letters, digits, '_' and '-' only, and not taken yet.
+// The body's name with letters, digits, '_' and '-' only, made different from all file names in use.
 std::string PartFiles::fileName(const std::string& body) {
   std::string name;
   for (const char c : body)
@@ -84,7 +85,8 @@ FolderFiles PartFiles::make(const ordered_json& inputs, const std::string& key) 
   return std::move(files_);
 }
 
-// Bodies that are not split are convex, or stay whole: one part, with a bound as good as the others'.
+// A body that is not split is convex or stays whole. It is one part, with a bound as good as those of other
+// parts.
 void PartFiles::certifyHulls() {
   const GeometryOptions& options = conversion_.report.files.geometry;
   std::map<int, int> one;
@@ -102,7 +104,7 @@ const Body* PartFiles::bodyOf(const LinkModel& link, std::size_t shape) const {
   return found == bodies.end() ? nullptr : &*found;
 }
 
-// The parts that stand for a mesh: none for points without triangles, which are their own hull.
+// The parts that stand for a mesh. None for points without triangles, which are their own hull.
 std::vector<const Body*> PartFiles::partsOf(int index) {
   std::vector<const Body*> parts;
   for (const Body& part : report_.geometry->bodies)
@@ -114,7 +116,7 @@ std::vector<const Body*> PartFiles::partsOf(int index) {
 
 void PartFiles::add(const LinkModel& link, const ShapeModel& shape, std::size_t number, PartUrdf& urdf) {
   const Body* body = bodyOf(link, number);
-  if (!body) return;  // left out as wrong
+  if (!body) return;  // the shape was wrong and left out
   ordered_json entry{{"link", link.name}, {"body", body->name}};
   if (body->file.empty()) {
     entry["mesh"] = nullptr;

@@ -14,17 +14,17 @@
 
 namespace fcl_stpbv::report {
 
-/// Meshes and volumes of a robot's parts, its URDF and SRDF, and the
-/// manifest. Both arguments must outlive it.
+/// Meshes and volumes of a robot's parts, its URDF and SRDF, and the manifest. Both arguments must outlive
+/// it.
 class PartFiles {
  public:
   PartFiles(const RobotConversion& conversion, const CollisionReport& report);
 
-  /// Called once. `inputs` and `key` go into the manifest.
+  /// To be called once. `inputs` and `key` go into the manifest.
   detail::FolderFiles make(const nlohmann::ordered_json& inputs, const std::string& key);
 
-  int parts() const { return parts_; }       ///< written, of all meshes
-  double excess() const { return excess_; }  ///< of any volume over its mesh, at most (m)
+  int parts() const { return parts_; }       ///< number of parts written, of all meshes
+  double excess() const { return excess_; }  ///< upper bound on the excess of any volume over its mesh (m)
 
  private:
   void certifyHulls();
@@ -39,7 +39,7 @@ class PartFiles {
   const RobotConversion& conversion_;
   const CollisionReport& report_;
   LinkParts hulls_;
-  std::set<std::string> taken_;  // names of files
+  std::set<std::string> taken_;  // file names in use
   detail::FolderFiles files_;
   nlohmann::ordered_json links_ = nlohmann::ordered_json::array();
   int parts_ = 0;

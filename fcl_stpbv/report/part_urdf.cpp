@@ -1,4 +1,4 @@
-// Each element is found by its place (ShapeModel::place) and copied once a part.
+// Each element is found by its place (ShapeModel::place) and copied once for each part.
 #include "fcl_stpbv/report/part_urdf.h"
 
 #include <filesystem>
@@ -42,7 +42,7 @@ class Writer {
   }
 
  private:
-  // A name relative to the old URDF becomes relative to the new one.
+  // Changes a name relative to the old URDF to one relative to the new URDF.
   void redirect(XMLElement* file) const {
     const char* attribute = file ? file->Attribute("filename") : nullptr;
     if (!attribute) return;
@@ -50,7 +50,7 @@ class Writer {
     const std::string name = path.value_or(attribute);
     if (name.find("://") != std::string::npos || fs::path(name).is_absolute()) return;
     const fs::path old = fs::path(names_.folderOf(attribute)) / name;
-    // With its file://, after which a %20 stands for a space.
+    // The file:// stays, because after it a %20 stands for a space.
     const std::string moved =
         (path ? "file://" : "") + fs::relative(old, fs::absolute(parts_.folder)).string();
     file->SetAttribute("filename", moved.c_str());

@@ -26,7 +26,7 @@ std::string run(const Posture& posture) {
                    posture.distanceCalls, posture.gradientCalls, posture.cost);
 }
 
-// The bodies that are split, and into how many parts.
+// The bodies that are split, and their numbers of parts.
 std::map<std::string, int> partsOf(const PostureReport& report) {
   std::map<std::string, int> parts;
   for (const Body& body : report.scene.geometry->bodies)

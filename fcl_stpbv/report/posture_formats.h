@@ -9,17 +9,19 @@
 
 namespace fcl_stpbv::report {
 
-/// What find_posture found out.
+/// The result of find_posture.
 struct PostureReport {
   PostureScene scene;
   PostureTask task;
   std::shared_ptr<const Kinematics> kinematics;
   std::vector<CheckedPair> pairs;
   Posture posture;
-  std::optional<detail::NamedDistance> closest;  ///< in the posture; nothing without pairs
+  std::optional<detail::NamedDistance> closest;  ///< closest pair in the posture; no value without pairs
   std::vector<std::string> warnings;
-  std::vector<std::string> skipped;          ///< shapes left out as wrong, which nothing was checked against
-  std::optional<Posture> withoutCollisions;  ///< the same task with no pair checked, where there are pairs
+  /// Wrong shapes that were left out; nothing was checked against them.
+  std::vector<std::string> skipped;
+  /// Result of the same task without any checked pair; no value without pairs.
+  std::optional<Posture> withoutCollisions;
 };
 
 std::string toText(const PostureReport& report);

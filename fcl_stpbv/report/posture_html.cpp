@@ -11,7 +11,7 @@ namespace fcl_stpbv::report {
 
 using namespace detail;
 
-// A line for each constraint that the posture violates, and for each of those in conflict.
+// A line for each constraint that the posture violates, and for each constraint in conflict.
 static std::vector<std::string> violated(const Posture& posture) {
   std::vector<std::string> lines;
   if (posture.feasible) return lines;

@@ -8,7 +8,8 @@
 namespace fcl_stpbv::report {
 namespace {
 
-// The solver leaves pairs that are in the way about at their margin; a millimetre is near enough to look.
+// The solver leaves pairs that are in the way about at their margin; all pairs within a millimetre of it are
+// examined.
 constexpr double kNear = 1e-3;
 
 }  // namespace
@@ -29,7 +30,7 @@ PostureParts::PostureParts(const PostureTask& task, PostureScene& scene,
 
 Posture PostureParts::find(PostureSetup& setup, const PostureOptions& options) {
   Posture posture = findPosture(setup, options);
-  constexpr int kMostRefinements = 3;  // two, four and eight parts
+  constexpr int kMostRefinements = 3;  // into two, four and eight parts
   for (int k = 0; task_.partsAuto && !posture.feasible && k < kMostRefinements; ++k) {
     if (choice_.refine(inTheWay(setup, posture.q)).empty()) break;
     use(choice_.geometry());
@@ -56,7 +57,7 @@ std::vector<SceneNeed> PostureParts::inTheWay(const PostureSetup& setup, const E
   return needs;
 }
 
-// The robot's own pairs name bodies by number, which parts change.
+// Replaces the bodies. The robot's own pairs name bodies by number, and parts change the numbers.
 void PostureParts::use(std::shared_ptr<const RobotGeometry> geometry) {
   if (scene_.selfPairs) {
     std::set<LinkPair> links;

@@ -9,17 +9,17 @@
 
 namespace fcl_stpbv::report {
 
-/// Gives a scene's robot parts, by the task's `parts` and `partsAuto`. The scene must outlive it.
+/// Splits the links of a scene's robot, by the task's `parts` and `partsAuto`. The scene must outlive it.
 class PostureParts {
  public:
-  /// `around`: the bodies behind the scene's obstacles. All links are split at once
-  /// where the task asks for a number of parts.
+  /// `around`: the bodies behind the scene's obstacles. All links are split at once if the task asks for a
+  /// number of parts.
   PostureParts(const PostureTask& task, PostureScene& scene, std::shared_ptr<const RobotGeometry> around,
                const GeometryOptions& options);
 
-  /// Solves the task. As long as that fails with pairs in the way by their hulls alone, links are split and
-  /// it is solved again.
-  /// @param setup that of the task; replaced where links are split
+  /// Solves the task. As long as that fails with pairs that are in the way only by their hulls, links are
+  /// split and the task is solved again.
+  /// @param setup the setup of the task; replaced if links are split
   Posture find(PostureSetup& setup, const PostureOptions& options);
 
  private:

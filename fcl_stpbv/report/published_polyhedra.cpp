@@ -13,7 +13,7 @@ namespace fcl_stpbv::report {
 
 std::vector<PolyhedronReport> comparePolyhedra(const RobotGeometry& geometry, const std::string& folder) {
   namespace fs = std::filesystem;
-  constexpr double kSame = 1e-6;  // the last digit that mesh files are written with, as a rule (m)
+  constexpr double kSame = 1e-6;  // m; usually the last digit with which mesh files are written
   std::error_code ignored;
   if (!fs::is_directory(folder, ignored)) throw Error("--polyhedra " + folder + ": is no folder");
   std::vector<PolyhedronReport> reports;

@@ -21,13 +21,13 @@ std::string cellOf(const std::string& text) {
   return out + "\"";
 }
 
-// Whether shapes of the robot itself are left out, not only of the scene.
+// Whether shapes of the robot itself were left out, not only shapes of the scene.
 bool lacksShapes(const CollisionReport& report) {
   return std::any_of(report.skipped.begin(), report.skipped.end(),
                      [&](const std::string& shape) { return shape.find(report.robot->path) == 0; });
 }
 
-// The pairs that need no check. What did not collide without some of the shapes is not among them.
+// The pairs that need no check. Pairs that did not collide without some of the shapes are not among them.
 std::vector<Srdf::Pair> leftOut(const CollisionReport& report, bool defaultToo) {
   std::vector<PairEntry> list = report.list;
   if (lacksShapes(report))

@@ -18,10 +18,11 @@ using namespace detail;
 
 namespace {
 
-// What a drawn body may lack, as a part of its size: an edge rounded by r = 1 cm
-// on a link of 30 cm gets three steps.
+// Tolerance of a drawn body, as a share of its size: an edge rounded by r = 1 cm on a link of 30 cm gets
+// three steps.
 constexpr double kTolerance = 1.0 / 500;
-// Corners of a body: enough for the tolerance on links of robots, and a bound on the page.
+// Largest number of corners of a body. It is enough for the tolerance on links of robots, and bounds the
+// page's size.
 constexpr int kMostCorners = 400;
 constexpr double kSteps = 65535;
 
@@ -30,7 +31,7 @@ std::string base64(const std::vector<Number>& values) {
   return report::base64(values.data(), values.size() * sizeof(Number));
 }
 
-// Corners as steps within the body's box, triangles as indices.
+// The shape of a body: corners as steps within the body's box, triangles as indices.
 nlohmann::json shapeOf(const fcl::CollisionGeometryd& geometry) {
   const TriangleMesh mesh = outline(geometry, kTolerance * geometry.aabb_radius, kMostCorners);
   Eigen::Vector3d low(0, 0, 0), high(0, 0, 0);
@@ -59,8 +60,8 @@ nlohmann::json rowsOf(const Eigen::Isometry3d& pose) {
   return rows;
 }
 
-// Bodies and obstacles, each with its shape and, as owner, the name that its pairs have; equal shapes are
-// held once.
+// Bodies and obstacles, each with its shape and its owner, which is the name that its pairs have. Equal
+// shapes are stored once.
 class Bodies {
  public:
   explicit Bodies(const CollisionReport& report) {
@@ -91,7 +92,8 @@ class Bodies {
   std::map<std::string, std::size_t> known_;
 };
 
-// How each link stands on its parent: the joint's origin, what it slides by and what it turns by.
+// The pose of each link on its parent: the joint's origin, the axes along which it slides and those about
+// which it turns.
 class Joints {
  public:
   explicit Joints(const Kinematics& kinematics) {
@@ -126,7 +128,7 @@ class Joints {
                     {"turns", nlohmann::json::array()}});
   }
 
-  // Of the joint added last, with the first of its coordinates.
+  // Adds the motions of the joint that was added last. `coordinate` is the first of its coordinates.
   void move(JointType type, const Eigen::Vector3d& axis, int coordinate, const Mimic& by = {-1, 1, 0}) {
     const auto add = [&](const char* what, const Eigen::Vector3d& along) {
       list.back()[what].push_back({{"axis", {along.x(), along.y(), along.z()}},
@@ -144,7 +146,7 @@ class Joints {
   }
 };
 
-// To eight digits: what nobody reads off a page, and what compresses badly.
+// Rounds numbers to eight digits, because nobody reads more off a page, and more digits compress badly.
 void shorten(nlohmann::json& value) {
   if (value.is_number_float()) {
     const double x = value.get<double>();
@@ -156,8 +158,8 @@ void shorten(nlohmann::json& value) {
   }
 }
 
-// Whether the trajectory leaves open if the pair meets: neither a proof of its own nor its closest approach
-// tells.
+// Whether the trajectory leaves open if the pair meets, because neither a proof of its own nor its closest
+// approach decides.
 bool isUndecided(const CollisionReport& report, const PairReport& pair) {
   if (!report.trajectory || !pair.checked || pair.freeAlong) return false;
   const TrajectoryReport& t = *report.trajectory;
@@ -169,7 +171,7 @@ bool isUndecided(const CollisionReport& report, const PairReport& pair) {
          });
 }
 
-// What a task asks for: targets with their frames, and contacts.
+// Adds what a task asks for: targets with their frames, and contacts.
 void addMarks(const TaskMarks& marks, nlohmann::json& data) {
   data["targets"] = data["contacts"] = nlohmann::json::array();
   for (const TargetMark& mark : marks.targets)
@@ -229,7 +231,7 @@ nlohmann::json dataOf(const CollisionReport& report, const std::string& title,
   return data;
 }
 
-// `text` with what is to be put in place of each @NAME@.
+// Replaces each @NAME@ in `text` by the part of that name.
 std::string filled(std::string_view text, const std::map<std::string_view, std::string>& parts) {
   std::string out;
   while (!text.empty()) {
@@ -246,7 +248,7 @@ std::string filled(std::string_view text, const std::map<std::string_view, std::
 
 }  // namespace
 
-// The chart over the tables, where a trajectory was followed.
+// The chart above the tables, if a trajectory was followed.
 static std::string trajectorySection(const CollisionReport& report) {
   if (!report.trajectory) return "";
   return "<section id=\"trajectory\" aria-label=\"Trajectory\"><h2>Least distance of all "

@@ -31,14 +31,14 @@ std::string steepest(const PairReport& pair) {
 
 std::string millimetres(double metres) { return formatted("%.3f", metres * kMm); }
 
-// What a list cut after `top` lines ends with.
+// The last line of a list that is cut after `top` lines.
 std::string unshown(std::size_t all, std::size_t top) {
   return all > top ? "... and " + std::to_string(all - top) + " more (--top)\n" : "";
 }
 
-// The checked pairs by what their collision comes from, those that do not collide last; within a group as the
-// report has them. Cut so that each group has its share of the lines: what only hulls or margins make collide
-// does not hide behind contacts.
+// The checked pairs, grouped by the cause of their collision; pairs that do not collide are last. Within a
+// group they are in the report's order. The list is cut so that each group has its share of the lines. So
+// contacts do not hide the pairs that collide only by hulls or margins.
 std::vector<const PairReport*> shownPairs(const CollisionReport& report, std::size_t top) {
   constexpr std::size_t kGroups = 4;
   const char* const causes[kGroups] = {kMeshesMeet, kHullOnly, kMarginOnly, ""};
@@ -138,14 +138,14 @@ std::string advised(const CollisionReport& report) {
                    least.r * kMm, most.r * kMm, least.R, most.R, acceleration);
 }
 
-// The first three of some pairs.
+// The first three of some pairs by name, and how many more there are.
 std::string named(const std::vector<const PairReport*>& pairs) {
   std::vector<std::string> names;
   for (const PairReport* pair : pairs) names.push_back(printable(pair->link1 + " - " + pair->link2));
   return detail::listed(names, names.size());
 }
 
-// What parts were made for, and did not help.
+// The pairs for which parts were made that did not help.
 std::string unsplit(const CollisionReport& report, bool anySplit) {
   std::vector<const PairReport*> left;
   for (const PairReport& pair : report.pairs)
@@ -208,7 +208,7 @@ std::string polyhedra(const CollisionReport& report, std::size_t top) {
          "two figures: the mesh's, the polyhedron's; surfaces: how far the two volumes are apart\n";
 }
 
-// What became of the trajectory, in a few lines.
+// The result for the trajectory, in a few lines.
 std::string trajectory(const CollisionReport& report) {
   if (!report.trajectory) return "";
   const TrajectoryReport& t = *report.trajectory;
@@ -232,7 +232,7 @@ std::string trajectory(const CollisionReport& report) {
   return text;
 }
 
-// Pairs that the SRDF leaves out and that collide, each with where.
+// Pairs that the SRDF leaves out although they collide, each with a configuration where it does.
 std::string contradictions(const CollisionReport& report, std::size_t top) {
   std::string text;
   std::size_t count = 0;

@@ -10,12 +10,12 @@ namespace fcl_stpbv::report {
 
 using detail::openParts;
 
-/// A sentence where a margin below 0 (m) lets bodies overlap; "" else.
+/// A sentence if a margin below 0 (m) lets bodies overlap; otherwise "".
 std::string overlapsAllowed(double margin);
 
-/// Whole sentences for meshes that are not closed, for bodies that meet in the neutral
-/// posture (`neutral` is its name, "" for the usual one), for those that no joint moves and that meet an
-/// obstacle, and for pairs whose gradient may jump. The report's pairs and fits are there.
+/// Whole sentences about meshes that are not closed; bodies that meet in the neutral posture (`neutral` is
+/// its name, "" for the usual one); bodies that no joint moves and that meet an obstacle; and pairs whose
+/// gradient may jump. The report must have its pairs and fits already.
 std::vector<std::string> reportWarnings(const CollisionReport& report, const std::string& neutral);
 
 }  // namespace fcl_stpbv::report

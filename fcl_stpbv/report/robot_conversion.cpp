@@ -1,6 +1,7 @@
-// 1. the inputs' key: their SHA-256 and the options; where the folder has that key there is nothing to do;
-// 2. the report, with the links split for all their pairs (collision_report.h);
-// 3. the files (part_files.h), all at once.
+// 1. computes the key of the inputs: their SHA-256 and the options. If the folder has that key, there is
+//    nothing to do;
+// 2. makes the report, with the links split for all their pairs (collision_report.h);
+// 3. writes the files (part_files.h), all at once.
 #include "fcl_stpbv/report/robot_conversion.h"
 
 #include <algorithm>
@@ -21,7 +22,7 @@ using namespace detail;
 using nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
-// A posture may be a file, or the name of a state in the SRDF.
+// A posture may be a file, which is given by its digest, or the name of a state in the SRDF.
 ordered_json digestOf(const std::string& path) {
   std::error_code ignored;
   return fs::is_regular_file(path, ignored) ? ordered_json(sha256(readText(path))) : ordered_json(path);
@@ -54,7 +55,7 @@ ordered_json optionsOf(const RobotConversion& conversion) {
   return json;
 }
 
-// All that the output follows from; `read` gets the files that it was read from.
+// All inputs that determine the output. `read` receives the names of the files that were read.
 ordered_json inputsOf(const RobotConversion& conversion, std::vector<std::string>& read) {
   const RobotFiles& files = conversion.report.files;
   for (const std::string& path : {files.urdf, files.srdf, files.obstacles}) {
@@ -72,9 +73,10 @@ ordered_json inputsOf(const RobotConversion& conversion, std::vector<std::string
     inputs[what] = {{"file", path}, {"sha256", sha256(readText(path))}};
   };
   inputs["version"] = FCL_STPBV_VERSION;
-  inputs["writer"] = 4;  // changes when the same inputs give other files
+  inputs["writer"] = 4;  // changed when the same inputs give other files
   add("urdf", files.urdf);
-  // From the folder on, names of visual meshes and textures are written: one that was moved is another.
+  // The names of visual meshes and textures are written relative to the new folder, so the key changes if it
+  // is moved.
   std::error_code ignored;
   const fs::path home = fs::absolute(files.urdf).parent_path();
   inputs["urdf"]["from_folder"] = fs::relative(home, fs::absolute(conversion.folder), ignored).string();
@@ -112,12 +114,12 @@ ConversionResult convertRobot(const RobotConversion& conversion) {
   }
   ReportRequest request = conversion.report;
   request.partsForAllPairs = true;
-  request.mayCheckNothing = true;  // a gripper of one link has parts too
+  request.mayCheckNothing = true;  // a gripper of one link has parts, too
   requireFolderPlace(conversion.folder);
   const CollisionReport report = makeReport(request);
   PartFiles output(conversion, report);
   const FolderFiles files = output.make(inputs, key);
-  // That took a while: nothing of the user's may have come into the folder meanwhile.
+  // The report took a while. Meanwhile no file of the user may have come into the folder.
   keyOfFolder(conversion.folder, read, conversion.force);
   atomicWriteFolder(conversion.folder, files);
   result.warnings = report.warnings;

@@ -14,7 +14,7 @@ using namespace detail;
 
 constexpr char kLargerR[] = "give a larger --R, or take the primitives as they are (--primitives flat)";
 
-// Nothing can be said about a robot of which nothing was loaded, least of all that it is clear.
+// Nothing can be said about a robot or a scene if no shape of it was loaded, least of all that it is clear.
 void requireBodies(const RobotModel& robot, const RobotGeometry& geometry, bool visual,
                    const std::vector<std::string>& leftOut) {
   if (geometry.bodies.empty() && !geometry.incomplete.empty())
@@ -30,8 +30,8 @@ void append(std::vector<std::string>& all, const std::vector<std::string>& more)
   all.insert(all.end(), more.begin(), more.end());
 }
 
-// What any posture or task may have to keep apart: pairs that only samples would leave out are among them, as
-// these need the bodies first.
+// All pairs that any posture or task may have to keep apart. Pairs that only samples would leave out are
+// among them, because sampling needs the bodies first.
 std::vector<CheckedPair> pairsToCover(const Kinematics& kinematics, const RobotGeometry& bodies,
                                       const Srdf* srdf, std::size_t obstacles) {
   std::vector<CheckedPair> pairs = selfPairs(kinematics.robot(), bodies, srdf);
@@ -44,9 +44,9 @@ std::vector<CheckedPair> pairsToCover(const Kinematics& kinematics, const RobotG
 }  // namespace
 
 RobotLoader::RobotLoader(RobotFiles files) : files_(std::move(files)), sceneOptions_(files_.geometry) {
-  sceneOptions_.links.clear();  // these name the robot's
+  sceneOptions_.links.clear();  // these name the robot's links
   sceneOptions_.budgets.clear();
-  sceneOptions_.advice.reset();  // what is large had better be flat (docs/choosing_r_and_R.md)
+  sceneOptions_.advice.reset();  // large obstacles should rather be flat (docs/choosing_r_and_R.md)
   sceneOptions_.flatLinks.clear();
   sceneOptions_.flat = files_.flatObstacles;
 }
@@ -61,7 +61,7 @@ void RobotLoader::read() {
     });
   }
   if (files_.obstacles.empty()) return;
-  LoadFaults scene;  // apart: whether visual shapes are taken depends on it
+  LoadFaults scene;  // kept apart, because whether visual shapes are taken depends on these faults
   LoadFaults::gather(faults_.errors, [&] {
     scene_ = std::make_shared<const RobotModel>(loadUrdf(files_.obstacles, scene));
     sceneShapes_ = readGeometry(*scene_, sceneOptions_, scene);

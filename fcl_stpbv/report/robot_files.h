@@ -15,12 +15,12 @@
 namespace fcl_stpbv::report {
 
 struct RobotFiles {
-  std::string urdf, srdf, obstacles;  ///< "" where not given
-  GeometryOptions geometry;           ///< the scene's too, but for what names single links
+  std::string urdf, srdf, obstacles;  ///< "" if not given
+  GeometryOptions geometry;           ///< also for the scene, except options that name single links
   bool flatObstacles = false;         ///< the scene's meshes stay convex polyhedra
-  bool flatPrimitives = false;  ///< primitives get no smooth cover where a pair needs one (checked_pairs.h)
-  bool skipInvalid = false;     ///< go on without the shapes that are wrong
-  bool writesPairs = false;     ///< the SRDF's pairs are written anew: it need not leave out any yet
+  bool flatPrimitives = false;  ///< primitives get no smooth cover even if a pair needs one (checked_pairs.h)
+  bool skipInvalid = false;     ///< go on without the wrong shapes
+  bool writesPairs = false;     ///< the SRDF's pairs will be written anew, so it need not leave out any yet
   BaseMotion base = BaseMotion::fixed;  ///< a base that moves makes pairs of all links and obstacles
 };
 
@@ -30,28 +30,28 @@ class RobotLoader {
 
   /// Reads everything. Faults are in faults(), to which the caller may add. Afterwards only robot(), srdf()
   /// and, if there is no error, kinematics() are available, and they may be incomplete.
-  /// @throws Error where a file cannot be read at all.
+  /// @throws Error if a file cannot be read at all.
   void read();
   /// Builds the volumes, and the covers of primitives that pairs need. @throws Error listing all faults, and
-  /// where a body is wanted and there is none.
+  /// if the robot or the scene has no body.
   void build();
 
   LoadFaults& faults() { return faults_; }
   std::shared_ptr<const RobotModel> robot() const { return robot_; }
-  std::shared_ptr<const Srdf> srdf() const { return srdf_; }  ///< null where none was given
+  std::shared_ptr<const Srdf> srdf() const { return srdf_; }  ///< null if none was given
   std::shared_ptr<const Kinematics> kinematics() const { return kinematics_; }
   std::shared_ptr<const RobotGeometry> geometry() const { return geometry_; }
   /// The bodies behind obstacles(), in their order.
   std::shared_ptr<const RobotGeometry> sceneGeometry() const { return sceneGeometry_; }
   std::vector<Obstacle> obstacles() const;
-  /// What read() found, of the robot and of the scene.
+  /// The shapes that read() found, of the robot and of the scene.
   const detail::ShapeSources& shapes() const { return shapes_; }
   const detail::ShapeSources& sceneShapes() const { return sceneShapes_; }
-  /// The files of the meshes of both.
+  /// The mesh files of the robot and of the scene.
   std::vector<std::string> meshFiles() const;
-  /// Whole sentences, to be told to the user.
+  /// Whole sentences for the user.
   std::vector<std::string> warnings() const;
-  /// One entry for each shape that was left out, and that nothing is checked against.
+  /// One entry for each shape that was left out; nothing is checked against it.
   const std::vector<std::string>& skipped() const { return faults_.shapes; }
 
  private:

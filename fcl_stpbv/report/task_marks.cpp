@@ -1,4 +1,4 @@
-// See task_marks.h. What is off is what the solver's own rows say.
+// See task_marks.h. The errors come from the solver's own rows.
 #include "fcl_stpbv/report/task_marks.h"
 
 #include <cmath>

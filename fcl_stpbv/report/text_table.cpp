@@ -7,7 +7,7 @@
 
 namespace fcl_stpbv::report {
 
-constexpr std::size_t kBetween = 2;  // spaces
+constexpr std::size_t kBetween = 2;  // spaces between columns
 
 void TextTable::add(std::vector<std::string> line) {
   for (std::string& text : line) text = detail::printable(text);
@@ -20,7 +20,7 @@ std::string TextTable::text(std::size_t indent) const {
     for (std::size_t k = 0; k < line.size(); ++k) width[k] = std::max(width[k], detail::cellsOf(line[k]));
   std::string text;
   for (const auto& line : lines_) {
-    std::size_t due = indent;  // spaces before the next text, written only where there is one
+    std::size_t due = indent;  // spaces before the next text, written only if there is one
     for (std::size_t k = 0; k < line.size(); ++k) {
       const std::size_t room = width[k] - detail::cellsOf(line[k]);
       const bool right = sides_[k] == 'r';

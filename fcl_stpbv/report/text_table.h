@@ -10,14 +10,14 @@ namespace fcl_stpbv::report {
 
 class TextTable {
  public:
-  /// A letter a column: 'l' for one whose text begins, 'r' for one whose text ends at its edge.
+  /// One letter for each column: 'l' aligns its texts at the left edge, 'r' at the right edge.
   explicit TextTable(std::string sides) : sides_(std::move(sides)) {}
 
-  /// A line; it may have fewer texts than there are columns. What of them cannot be shown becomes '?'.
+  /// Adds a line. It may have fewer texts than there are columns. Characters that cannot be shown become '?'.
   void add(std::vector<std::string> line);
 
-  /// The lines, each after `indent` spaces, without spaces at their ends. The width of a text is what a
-  /// terminal takes for it, in whatever script.
+  /// The lines, each after `indent` spaces, without spaces at their ends. The width of a text is counted in
+  /// terminal cells, for any script.
   std::string text(std::size_t indent = 0) const;
 
  private:

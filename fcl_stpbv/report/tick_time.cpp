@@ -1,4 +1,4 @@
-// Steps all joints a little and times each evaluation; the median tells more than the mean of a busy machine.
+// Steps all joints a little and times each evaluation. On a busy machine the median tells more than the mean.
 #include "fcl_stpbv/report/tick_time.h"
 
 #include <algorithm>

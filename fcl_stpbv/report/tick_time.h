@@ -5,11 +5,11 @@
 
 namespace fcl_stpbv::report {
 
-/// Rows with their Jacobian, in small steps around `q`, everything warm; the time is a median.
+/// Cost of the rows with their Jacobian, in small steps around `q`, with warm caches. The time is a median.
 RowCost tickCost(std::shared_ptr<const Kinematics> kinematics, std::shared_ptr<const RobotGeometry> geometry,
                  const std::vector<CheckedPair>& rows, const ConstraintOptions& options, Eigen::VectorXd q);
 
-/// The closest bodies of each checked pair.
+/// The closest pair of bodies of each checked pair.
 std::vector<CheckedPair> closestBodies(const CollisionReport& report);
 
 }  // namespace fcl_stpbv::report

@@ -1,7 +1,7 @@
 // Checks a robot along a trajectory, segment by segment:
 // 1. The first contact: bracketed in time, or proven absent (robot/motion_check.h).
 // 2. Each pair's closest approach, proven likewise.
-// 3. Where it is not free for all pairs, for which it is all the same.
+// 3. If it is not free for all pairs: the pairs for which it is free.
 // 4. Even samples, the contact and the closest approach, for the chart and the steepest approach: distances
 //    and, by the Jacobian, how fast they change.
 #include "fcl_stpbv/report/trajectory.h"
@@ -24,12 +24,12 @@ std::size_t segmentAt(const Trajectory& trajectory, double time) {
   return static_cast<std::size_t>(above - trajectory.time.begin()) - 1;
 }
 
-// The part of the trajectory's time that a part of a segment's way is at.
+// The trajectory's time at a share `part` of a segment's way.
 double timeAt(const Trajectory& trajectory, std::size_t segment, double part) {
   return trajectory.time[segment] + part * (trajectory.time[segment + 1] - trajectory.time[segment]);
 }
 
-/// A trajectory's first contact, or where nothing is decided.
+/// A trajectory's first contact, or the first place where nothing is decided.
 struct FirstStop {
   MotionVerdict verdict = MotionVerdict::free;
   std::size_t segment = 0;
@@ -53,15 +53,15 @@ FirstStop firstStop(MotionCheck& check, double margin, const Trajectory& t, std:
   return none;
 }
 
-/// Who is followed, and by what pairs of bodies.
+/// The robot that is followed, and the pairs of bodies for which the search goes on.
 struct Followed {
   std::shared_ptr<const Kinematics> kinematics;
   std::shared_ptr<const RobotGeometry> geometry;
   const std::vector<Obstacle>& obstacles;
   double margin;
-  std::vector<CheckedPair> pairs;  // that are left
-  std::vector<int> number;         // of each of them among all
-  std::size_t segment = 0;         // before which they are free
+  std::vector<CheckedPair> pairs;  // the pairs that are left
+  std::vector<int> number;         // index of each of them among all pairs
+  std::size_t segment = 0;         // the pairs are free before this segment
 
   void markFree(TrajectoryReport& report) const {
     for (const int pair : number) report.free[static_cast<std::size_t>(pair)] = true;
@@ -81,8 +81,9 @@ struct Followed {
   }
 };
 
-// A pair whose distance is the margin to rounding must not hide a contact of another one: it is set aside,
-// and the search goes on with the others from where it was. @return whether all that are left are free.
+// A pair whose distance equals the margin up to rounding must not hide a contact of another pair. So it is
+// set aside, and the search goes on with the others from where it was. @return whether all pairs that are
+// left are free.
 bool findContact(MotionCheck& all, Followed& left, TrajectoryReport& report) {
   FirstStop stop = left.next(all, report.trajectory);
   while (stop.verdict == MotionVerdict::undecided && !stop.tooLong) {
@@ -105,9 +106,9 @@ bool findContact(MotionCheck& all, Followed& left, TrajectoryReport& report) {
   return stop.verdict == MotionVerdict::free;
 }
 
-// Which of the pairs that are left are free all the way, each by a proof of its own: the search goes on
-// without those that touch, found by their closest approaches or by the search itself, and without a few that
-// take too many distances.
+// Finds which of the pairs that are left are free all the way, each by a proof of its own. The search goes on
+// without those that touch, which are found by their closest approaches or by the search itself. It also goes
+// on without a few that take too many distances.
 void findFree(Followed left, TrajectoryReport& report) {
   for (auto i = static_cast<std::ptrdiff_t>(left.number.size()) - 1; i >= 0; --i) {
     const auto pair = static_cast<std::size_t>(left.number[static_cast<std::size_t>(i)]);
@@ -127,7 +128,7 @@ void findClosest(MotionCheck& check, TrajectoryReport& report) {
   report.closestProven = true;
   for (std::size_t i = 0; i + 1 < t.points.size(); ++i) {
     const double precision = TrajectoryReport::kPrecision;
-    // Times of a segment's part, to be told from those of the segments before.
+    // The number of the segment is added to the share of its way, so that the segments can be told apart.
     report.closestProven &=
         check.closest(t.points[i], t.points[i + 1], precision, static_cast<double>(i), report.closest);
   }
@@ -137,7 +138,8 @@ void findClosest(MotionCheck& check, TrajectoryReport& report) {
   }
 }
 
-// Even times, and those that a chart must not miss however short they are: the closest approach, the contact.
+// Evenly spaced times, and those that a chart must not miss, however short the events are: the closest
+// approach, the contact.
 std::vector<double> chartTimes(const TrajectoryReport& report) {
   constexpr int kChart = 400;
   const double begin = report.trajectory.time.front(), end = report.trajectory.time.back();
@@ -152,7 +154,7 @@ std::vector<double> chartTimes(const TrajectoryReport& report) {
   return times;
 }
 
-// Distances and their change at the times of the chart.
+// Computes distances and their rates of change at the times of the chart.
 void sample(CollisionConstraints& rows, TrajectoryReport& report) {
   const Trajectory& t = report.trajectory;
   VectorXd d(rows.rows());

@@ -12,7 +12,7 @@ using detail::formatted;
 
 namespace {
 
-/// What a range of values is divided by: 1, 2 or 5 times a power of ten, at most `most` times.
+/// Ticks that divide a range of values into at most `most` parts: the step is 1, 2 or 5 times a power of ten.
 struct Ticks {
   double step;
   int decimals = 0;
@@ -53,7 +53,7 @@ class Drawing {
 
 std::string chartOf(const TrajectoryReport& report, double margin) {
   constexpr double kWidth = 1200, kHeight = 270, kTop = 24, kBottom = 226, kRight = 1184;
-  constexpr double kLetter = 8, kRoom = 130;  // as wide as a letter of 13 pixels and a label are at most
+  constexpr double kLetter = 8, kRoom = 130;  // largest width of a letter of 13 pixels, and of a label
   constexpr const char* kGrid = "stroke=\"currentColor\" opacity=\"0.15\"";
   constexpr const char *kMiddle = "text-anchor=\"middle\"", *kEnd = "text-anchor=\"end\"";
   const std::vector<double>&time = report.chartTime, &distance = report.chartDistance;
@@ -97,12 +97,12 @@ std::string chartOf(const TrajectoryReport& report, double margin) {
   if (margin != 0) {
     d.line(left, y(scale * margin), kRight, y(scale * margin),
            "stroke=\"currentColor\" stroke-dasharray=\"2 4\"");
-    const bool atLeft = x(nearest) > 0.5 * (left + kRight);  // not over what is said of the closest approach
+    const bool atLeft = x(nearest) > 0.5 * (left + kRight);  // not over the label of the closest approach
     d.text(atLeft ? left + 7 : kRight, y(scale * margin) - 5, atLeft ? "" : kEnd,
            formatted("margin %g %s", scale * margin, unit));
   }
   d.line(-9, kTop, -9, kBottom,
-         "id=\"chosen\" stroke=\"#2a7ae2\" opacity=\"0.6\"");  // of a page, once it is asked for
+         "id=\"chosen\" stroke=\"#2a7ae2\" opacity=\"0.6\"");  // a page moves it to the chosen pair's time
   d.svg += "<polyline fill=\"none\" stroke=\"#2a7ae2\" stroke-width=\"2\" points=\"";
   for (std::size_t i = 0; i < time.size(); ++i) d.add("%.2f,%.2f ", x(time[i]), y(scale * distance[i]));
   d.svg += "\"/>";

@@ -20,7 +20,7 @@ using namespace detail;
 namespace {
 
 constexpr std::size_t kMostText = 256u << 20;
-// As of a posture: larger than any robot's, and past it a sine loses digits.
+// Limit of a value, as for a posture: larger than any robot's. Beyond it a sine loses digits.
 constexpr double kMost = 1e6;
 constexpr const char* kJson = "{\"joints\": [names], \"points\": [[values], ...]}";
 constexpr const char* kMessage =
@@ -29,9 +29,9 @@ constexpr const char* kMessage =
 struct Columns {
   std::vector<std::string> names;
   std::ptrdiff_t time =
-      -1;  // the time's place among them, named "" where it has no name in the file; or none
+      -1;  // index of the time among them; its name is "" if the file gives it none; -1 if there are no times
   std::vector<std::vector<double>> rows;
-  std::vector<std::string> places;  // of each row, for messages
+  std::vector<std::string> places;  // place of each row in the file, for messages
 };
 
 std::vector<std::string> cellsOf(std::string_view line) {
@@ -177,7 +177,7 @@ Columns fromJson(const std::string& text, const std::string& path) {
   return columns;
 }
 
-// Why a name is that of no coordinate.
+// Says why a name is not the name of a coordinate.
 std::string whyNone(const std::string& name, const Kinematics& kinematics) {
   const std::vector<JointModel>& joints = kinematics.robot().joints;
   const auto joint =
@@ -252,7 +252,7 @@ Trajectory readTrajectory(const std::string& path, const Kinematics& kinematics,
     const double begin = i == 0 ? time : trajectory.time.front();
     if (trajectory.timed && !(std::abs(time - begin) <= kMost))
       throw Error(columns.places[i] + ": the time must be a number within 1e6 s of the first way point's");
-    constexpr double kLeastStep = 1e-9;  // s; in less no robot gets anywhere
+    constexpr double kLeastStep = 1e-9;  // s; no robot gets anywhere in less
     if (i > 0 && !(time - trajectory.time.back() >= kLeastStep))
       throw Error(columns.places[i] +
                   ": the time must grow from one way point to the next, by 1e-9 s or more");

@@ -10,17 +10,21 @@
 namespace fcl_stpbv::report {
 
 struct Trajectory {
-  std::vector<Eigen::VectorXd> points;  ///< at least two, all coordinates each; straight lines between them
-  std::vector<double> time;             ///< of each, growing (s); 0, 1, 2 ... where the file has none
-  bool timed = false;                   ///< whether the file has times
-  double start = 0;  ///< subtracted from the file's times (s): the first one, where it is beyond 1e6 as the
-                     ///< stamps of a clock are
+  /// At least two, each with all coordinates; straight lines between them.
+  std::vector<Eigen::VectorXd> points;
+  /// Of each point, growing (s); 0, 1, 2 ... if the file has none.
+  std::vector<double> time;
+  /// Whether the file has times.
+  bool timed = false;
+  /// Subtracted from the file's times (s): the first time, if it is beyond 1e6 as the stamps of a clock are;
+  /// otherwise 0.
+  double start = 0;
 };
 
-/// CSV: a line with the names of coordinates (as `Kinematics::names()`), `time` among them or not, then one
-/// line a way point. JSON: `{"joints": [names], "points": [[values]], "time": [seconds]}`, `time` optional.
-/// Or a trajectory_msgs/JointTrajectory of ROS, of which positions and times are read.
-/// Coordinates that are not named stay what they are in `rest`. @throws Error naming the file, the line or
+/// CSV: a line with the names of coordinates (as `Kinematics::names()`), with or without `time`, then one
+/// line for each way point. JSON: `{"joints": [names], "points": [[values]], "time": [seconds]}`, `time`
+/// optional. Or a trajectory_msgs/JointTrajectory of ROS, of which positions and times are read.
+/// Coordinates that are not named keep their values in `rest`. @throws Error naming the file, the line or
 /// key, and what would work.
 Trajectory readTrajectory(const std::string& path, const Kinematics& kinematics, const Eigen::VectorXd& rest);
 

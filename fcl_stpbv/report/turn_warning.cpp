@@ -12,7 +12,7 @@ using namespace detail;
 
 namespace {
 
-// How many of a joint's coordinates, its last ones, are angles that a whole turn brings back: one, or the
+// Number of a joint's coordinates, its last ones, that are angles and return after a whole turn: one, or the
 // rotation vector of a floating joint.
 int anglesOf(JointType type) {
   switch (type) {
@@ -26,7 +26,8 @@ int anglesOf(JointType type) {
   }
 }
 
-// Of the angles that turn a body as `to` does, those nearest to `from`: whole turns about the same axis.
+// Of all angles that rotate a body as `to` does, those nearest to `from`. They differ by whole turns about
+// the same axis.
 Eigen::VectorXd nearestTurn(const Eigen::VectorXd& to, const Eigen::VectorXd& from) {
   const double angle = to.norm();
   const Eigen::VectorXd axis = (angle > 0 ? to : from).normalized();
@@ -49,7 +50,7 @@ std::string turnWarning(const std::string& name, const Trajectory& trajectory, c
       const int k = kinematics.coordinate(joint.name) + freedoms(joint.type) - angles;
       const Eigen::VectorXd last = trajectory.points[i - 1].segment(k, angles),
                             to = trajectory.points[i].segment(k, angles), nearest = nearestTurn(to, last);
-      constexpr double kOff = 1e-6;  // of half a turn in few digits (rad)
+      constexpr double kOff = 1e-6;  // rad; error of half a turn in few digits
       const double turn = (to - last).norm();
       if (turn <= (nearest - last).norm() + kOff) continue;
       const std::string what = angles == 1 ? kinematics.names()[at(k)] : joint.name;
