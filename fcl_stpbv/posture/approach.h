@@ -16,7 +16,8 @@ struct ApproachOptions {
 
 struct NearPosture {
   Eigen::VectorXd x;
-  Eigen::VectorXd slope;  ///< gradient of half the sum at x; at a minimum 0 for variables that no bound holds
+  /// Gradient of half the sum at x; at a minimum it is 0 for variables that no bound holds.
+  Eigen::VectorXd slope;
   int iterations = 0;
 };
 

@@ -21,7 +21,7 @@ class CollisionRows : public PostureRows {
   std::string name(int row) const override { return constraints_.name(row); }
   void evaluate(const Point& at, Eigen::Ref<Eigen::VectorXd> values, Eigen::Ref<RowMatrix> jacobian) override;
 
-  /// Does not count pairs for which the bounding spheres were enough.
+  /// Number of distances computed. It does not count pairs for which the bounding spheres were enough.
   long queries() const override { return queries_; }
 
  private:
@@ -42,7 +42,7 @@ std::vector<NamedDistance> distancesOf(const std::vector<CheckedPair>& pairs, co
                                        std::shared_ptr<const Kinematics> kinematics,
                                        const Eigen::VectorXd& q);
 
-/// The pairs of bodies that are nearer than the margin (m), in their order, and by how much.
+/// The pairs of bodies that are nearer than the margin (m), in their order, and how much nearer they are.
 std::vector<Violation> nearerThan(double margin, const std::vector<CheckedPair>& pairs,
                                   const PostureScene& scene, std::shared_ptr<const Kinematics> kinematics,
                                   const Eigen::VectorXd& q);

@@ -45,9 +45,10 @@ std::vector<std::string> activeAt(PostureProblem& problem, const Eigen::VectorXd
   return names;
 }
 
-// The limits of variables that the violated constraints push against a bound.
+// The limits of variables against which the violated constraints push.
 std::vector<std::string> pushedLimits(const PostureProblem& problem, const NearPosture& least) {
-  const double push = 0.05 * least.slope.lpNorm<Eigen::Infinity>();  // less is what the descent left
+  // A smaller slope is only what the descent left over.
+  const double push = 0.05 * least.slope.lpNorm<Eigen::Infinity>();
   std::vector<std::string> names;
   for (int i = 0; i < problem.variables(); ++i) {
     const bool low = least.x[i] <= problem.lower()[i] && least.slope[i] > push;
@@ -85,7 +86,7 @@ SolverOutcome solve(PostureProblem& problem, const Eigen::VectorXd& start,
                     std::initializer_list<ApproachOptions> approaches, const SolverOptions& options) {
   // If the damped steps end with a larger violation than this (m, rad), the start is given up.
   constexpr double kNear = 0.1;
-  // If the programming ends with a larger violation than this, more steps rarely help.
+  // If SLSQP ends with a larger violation than this, more steps rarely help.
   constexpr double kClose = 1e-3;
   const auto worst = [&](const Eigen::VectorXd& x) {
     const std::vector<Violation> list = problem.missed(x, options.tolerance);
@@ -113,18 +114,18 @@ SolverOutcome solve(PostureProblem& problem, const Eigen::VectorXd& start,
   return outcome;
 }
 
-// The best of all that was tried.
+// Searches for a posture and keeps the best of all points that were tried.
 class PostureSearch {
  public:
   PostureSearch(PostureProblem& problem, const PostureOptions& options)
       : problem_(problem), options_(options), solver_(options.solver) {}
 
-  /// From one start after the other, the first of them at `start`, until one leads to a posture.
+  /// Tries the starts at and around `start` one after the other, until one leads to a posture.
   void fromStarts(const Eigen::VectorXd& start) {
     // The cost pulls the constraints apart by about this times their multipliers: millimetres.
     constexpr double kCostWeight = 1e-4;
-    // Low weight of collisions first: a hand that would get stuck in front of an obstacle passes through it
-    // and is pushed out behind it.
+    // A low weight of collisions comes first: a hand that would get stuck in front of an obstacle passes
+    // through it and is pushed out behind it.
     constexpr double kSoft = 0.3, kFirm = 1;
     const long long first = std::max(0, options_.firstStart), last = first + std::max(1, options_.starts);
     Starts starts(problem_, start, options_.seed, first);
@@ -144,16 +145,17 @@ class PostureSearch {
       consider(solve(problem_, starts.anywhere(), {ApproachOptions{}}, solver_));
   }
 
-  /// What is in conflict, where no start led to a posture.
+  /// Finds the constraints in conflict if no start led to a posture.
   void explain() {
-    // Steps to where the constraints hold best: next to singular postures they are many and short.
+    // Largest number of steps to the point where the constraints hold best. Next to singular postures the
+    // steps are many and short.
     constexpr int kLongest = 150;
     if (goesOn()) {
       ApproachOptions toTheEnd;
       toTheEnd.maxIterations = kLongest;
       const NearPosture least = approached(problem_, x_, toTheEnd, solver_);
       best_.conflict = problem_.missed(least.x, solver_.tolerance);
-      if (best_.conflict.empty())  // then they can hold together
+      if (best_.conflict.empty())  // then all constraints can hold together
         consider(improve(problem_, least.x, solver_));
       else
         best_.conflictLimits = pushedLimits(problem_, least);
@@ -163,7 +165,7 @@ class PostureSearch {
       best_.conflict.clear();
       best_.conflictLimits.clear();
     }
-    if (!problem_.still().empty()) {  // whatever else holds
+    if (!problem_.still().empty()) {  // these collide, whatever else holds
       best_.feasible = false;
       best_.status = "bodies that no joint can move apart collide";
       best_.violations = problem_.violations(x_, solver_.tolerance);
@@ -192,7 +194,7 @@ class PostureSearch {
   const PostureOptions& options_;
   const SolverOptions& solver_;
   Posture best_;
-  Eigen::VectorXd x_;  // of the best
+  Eigen::VectorXd x_;  // variables of the best posture
 };
 
 }  // namespace
@@ -209,7 +211,8 @@ Posture findPosture(PostureSetup& setup, const PostureOptions& options) {
                 std::to_string(problem.kinematics().size()));
   const long queriesBefore = problem.queries();
   PostureSearch search(problem, options);
-  // The random starts are around one within the limits: around another all could end at the same limit.
+  // The random starts lie around a start within the limits. Around another one all of them could end at the
+  // same limit.
   search.fromStarts(problem.variablesAt(setup.start).head(size));
   search.explain();
   Posture& best = search.best();

@@ -1,5 +1,5 @@
 // Removes linear dependence from equality constraints: replaces them by independent linear combinations. Some
-// constraints often follow from others, as most of those of a planar arm do.
+// constraints often follow from others, for example most constraints of a planar arm.
 #pragma once
 
 #include "fcl_stpbv/posture/problem.h"

@@ -13,10 +13,11 @@
 namespace fcl_stpbv::detail {
 namespace {
 
-// Limits that meet in one value, as written with few digits or divided, may miss each other by rounding.
+// Limits that should meet in one value may miss each other by rounding, if they are written with few digits
+// or divided.
 constexpr double kMeet = 1e-9;
 
-// What all that follow one coordinate allow, and which of them allows least.
+// The limits that all followers of one coordinate allow, and the follower that sets each limit.
 struct Followers {
   double low = -kInfinity, high = kInfinity;
   std::string lowBy, highBy;
@@ -61,7 +62,7 @@ void keepMimicLimits(const Kinematics& kinematics, NamedLimits lower, NamedLimit
         addFollower(robot, joint, all);
     double low = lower.values[i], high = upper.values[i];
     if (leader.type == JointType::continuous && (all.low > low || all.high < high)) {
-      const double turn = high - low;  // any turn will do: one that the followers allow
+      const double turn = high - low;  // any full turn will do, so take one that the followers allow
       low = std::max(all.low, std::min(low, all.high - turn));
       high = std::min(all.high, low + turn);
     }

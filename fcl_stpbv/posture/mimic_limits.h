@@ -17,7 +17,7 @@ struct NamedLimits {
 
 /// Narrows the limits of coordinates so that the joints which follow them keep their own limits. For a
 /// continuous joint, the range of one turn is shifted to where its followers allow it.
-/// @throws Error naming the joints where nothing is left.
+/// @throws Error naming the joints if no value is left.
 void keepMimicLimits(const Kinematics& kinematics, NamedLimits lower, NamedLimits upper);
 
 }  // namespace fcl_stpbv::detail

@@ -15,7 +15,7 @@ using detail::crossMatrix;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-// Rotation vector of a rotation, below half a turn or at it.
+// Rotation vector of a rotation, at most half a turn.
 Vector3d logarithm(const Matrix3d& rotation) {
   const Eigen::Quaterniond q(rotation);  // |q| = 1 to rounding, any sign
   const double sine = q.vec().norm(), sign = q.w() < 0 ? -1 : 1;
@@ -33,7 +33,7 @@ Matrix3d inverseRate(const Vector3d& e) {
   return Matrix3d::Identity() - k / 2 + c * k * k;
 }
 
-// angle / sin(angle) and its derivative with the cosine.
+// angle / sin(angle), and its derivative by the cosine.
 void angleBySine(double cosine, double sine, double& g, double& slope) {
   const double angle = std::atan2(sine, cosine);
   if (cosine > 0 && sine < 1e-2) {  // series in the sine; the next terms are below 1e-15
@@ -84,14 +84,15 @@ void PlacementRows::rotation(const Matrix3d& frame, Vector3d& error, Matrix3d& r
   }
   const Vector3d axis = Vector3d::Unit(freeAxis_), tilted = relative.col(freeAxis_);
   Vector3d turn = axis.cross(tilted);
-  // Nearer to half a turn than this the way round is taken as given: it is any, and the rate stays finite.
+  // Nearer to half a turn than this, the axis of the rotation is arbitrary. It is fixed, so that the rate
+  // stays finite.
   constexpr double kHalfTurn = 1e-6;
   if (axis.dot(tilted) < 0 && turn.norm() < kHalfTurn) turn = kHalfTurn * Vector3d::Unit((freeAxis_ + 1) % 3);
   const double cosine = axis.dot(tilted);
   double g, slope;
   angleBySine(cosine, turn.norm(), g, slope);
   error = g * turn;
-  const Matrix3d tiltedRate = -crossMatrix(tilted) * target.transpose();  // w cross tilted
+  const Matrix3d tiltedRate = -crossMatrix(tilted) * target.transpose();  // tilted changes by w x tilted
   rate = g * crossMatrix(axis) * tiltedRate + slope * turn * (axis.transpose() * tiltedRate);
 }
 

@@ -40,7 +40,7 @@ class PostureRows {
   /// angles in rad.
   virtual void evaluate(const Point& at, Eigen::Ref<Eigen::VectorXd> values,
                         Eigen::Ref<RowMatrix> jacobian) = 0;
-  /// Distances computed so far, each with its gradient.
+  /// Number of distances computed so far, each with its gradient.
   virtual long queries() const { return 0; }
 };
 
@@ -59,8 +59,8 @@ struct PostureValues {
   Eigen::VectorXd x;             ///< the variables
   double cost = 0;               ///< PostureCost at x
   Eigen::VectorXd costGradient;  ///< one entry per variable
-  Eigen::VectorXd equal;         ///< to be 0
-  Eigen::VectorXd atLeast;       ///< not to be negative
+  Eigen::VectorXd equal;         ///< values that must be 0
+  Eigen::VectorXd atLeast;       ///< values that must not be negative
   RowMatrix equalJacobian;       ///< one row per entry of `equal`, one column per variable
   RowMatrix atLeastJacobian;     ///< one row per entry of `atLeast`
 };
@@ -128,11 +128,11 @@ class PostureProblem {
   /// Values and derivatives at x. Recomputed only if x differs from the last call. The reference is valid
   /// until the next call.
   const PostureValues& evaluate(const Eigen::Ref<const Eigen::VectorXd>& x);
-  /// Distances computed so far, each with its gradient.
+  /// Number of distances computed so far, each with its gradient.
   long queries() const;
   /// The constraints and bounds that are violated by more than `tolerance` at x, worst first.
   std::vector<Violation> violations(const Eigen::Ref<const Eigen::VectorXd>& x, double tolerance);
-  /// The same without still().
+  /// violations() without those of still().
   std::vector<Violation> missed(const Eigen::Ref<const Eigen::VectorXd>& x, double tolerance);
 
  private:
@@ -141,9 +141,11 @@ class PostureProblem {
   std::shared_ptr<const Kinematics> kinematics_;
   PostureCost cost_;
   Eigen::VectorXd lower_, upper_;
-  std::vector<std::string> lowerOf_, upperOf_;  // the joint that mimics the coordinate and sets its limit
+  // The joint that mimics the coordinate and sets its limit; "" if none does.
+  std::vector<std::string> lowerOf_, upperOf_;
   std::vector<Violation> still_;
-  std::vector<std::pair<int, int>> shares_;  // first own variable and count of each addVariables()
+  // Index of the first variable and number of variables of each addVariables()
+  std::vector<std::pair<int, int>> shares_;
   std::vector<std::shared_ptr<PostureRows>> rows_;
   int equalities_ = 0, inequalities_ = 0;
   Kinematics::State state_;
@@ -154,7 +156,7 @@ class PostureProblem {
 /// Stopping criteria and settings of a solver.
 struct SolverOptions {
   int maxIterations = 300;  ///< largest number of iterations, each with one quadratic model
-  /// s. A search that ends because of this ends elsewhere on another machine.
+  /// Limit of the time (s). A search that ends because of it ends elsewhere on another machine.
   double maxSeconds = std::numeric_limits<double>::infinity();
   double tolerance = 1e-6;      ///< tolerance within which a constraint holds (m, rad)
   double costTolerance = 1e-8;  ///< stops when the relative change of the cost in one iteration is below this

@@ -1,9 +1,8 @@
 // Solves the problem by NLopt's SLSQP (Kraft 1988), with a small active set of rows:
-// 1. start with the inequalities that have little slack,
-// 2. and with independent combinations of the equalities, because dependent ones make SLSQP's matrix
-//    singular;
-// 3. if an iterate violates a row that is not included, restart from there with the row;
-// 4. stop a search whose violations no longer fall, or whose line search does not end.
+// 1. Start with the inequalities that have little slack.
+// 2. Use independent combinations of the equalities, because dependent ones make SLSQP's matrix singular.
+// 3. If an iterate violates a row that is not included, restart from there with the row.
+// 4. Stop a search whose violations no longer fall, or whose line search does not end.
 #include <nlopt.h>
 
 #include <algorithm>
@@ -70,7 +69,7 @@ class Slsqp {
     }
   }
 
-  // Takes in what has little slack at x.
+  // Includes the inequalities that have little slack at x.
   void select(const Eigen::VectorXd& x) {
     const PostureValues& values = problem_.evaluate(x);
     chosen_.resize(static_cast<std::size_t>(problem_.inequalities()), false);
@@ -82,9 +81,9 @@ class Slsqp {
     }
   }
 
-  // Adds the independent combinations of the equalities at x. One that changes by less than its tolerance per
-  // unit of every variable, or only with fixed variables, cannot be controlled. It is only checked at the
-  // end.
+  // Computes the independent combinations of the equalities at x. A combination that changes by less than its
+  // tolerance per unit of every variable, or only with fixed variables, cannot be controlled. It is only
+  // checked at the end.
   void combine(const Eigen::VectorXd& x) {
     if (problem_.equalities() == 0) return;
     RowMatrix jacobian = problem_.evaluate(x).equalJacobian;
@@ -102,7 +101,7 @@ class Slsqp {
     nlopt_set_min_objective(opt_, &Slsqp::objective, this);
     combine(x);
     if (combinations_.cols() > 0) {
-      // Where no combination misses more than this, no row misses more than its tolerance.
+      // If no combination is off by more than this, no row is off by more than its tolerance.
       const double most = options_.tolerance / combinations_.cwiseAbs().rowwise().sum().maxCoeff();
       const std::vector<double> tolerances(static_cast<std::size_t>(combinations_.cols()), most);
       nlopt_add_equality_mconstraint(opt_, static_cast<unsigned>(combinations_.cols()), &Slsqp::equalities,
@@ -120,7 +119,8 @@ class Slsqp {
     return nlopt_optimize(opt_, x.data(), &cost);
   }
 
-  // SLSQP begins with the identity as the Hessian: half the cost has just that along each joint of weight 1.
+  // SLSQP begins with the identity as the Hessian. That is the Hessian of half the cost for joints of weight
+  // 1.
   static double objective(unsigned n, const double* x, double* gradient, void* self) {
     Slsqp& s = *static_cast<Slsqp*>(self);
     const PostureValues& values = s.problem_.evaluate(ConstMap(x, n));
@@ -139,7 +139,7 @@ class Slsqp {
 
   // Stops a search whose violations no longer fall; SLSQP would continue for hundreds of iterations.
   void watch(const PostureValues& values) {
-    constexpr double kFar = 1e-3;  // nearer than this (m, rad) it may well alternate between two sides
+    constexpr double kFar = 1e-3;  // m, rad; a search that is nearer may well alternate between two sides
     constexpr int kPatience = 15;
     const double miss = std::max(values.equal.size() ? values.equal.cwiseAbs().maxCoeff() : 0.0,
                                  values.atLeast.size() ? -values.atLeast.minCoeff() : 0.0);
@@ -152,8 +152,8 @@ class Slsqp {
     if (stopped_ || stuck_ || best_.iterations >= options_.maxIterations) nlopt_force_stop(opt_);
   }
 
-  // Stops a line search that does not end. NLopt's takes at most 11 points, but where the merit is infinite
-  // or NaN, as with rows that contradict each other, it makes its step shorter for ever.
+  // Stops a line search that does not end. NLopt's line search takes at most 11 points. But where the merit
+  // is infinite or NaN, as with rows that contradict each other, it makes its step shorter for ever.
   void watchLine() {
     constexpr int kLongest = 30;
     stuck_ = ++line_ > kLongest;
@@ -198,7 +198,7 @@ class Slsqp {
   std::vector<int> active_;
   std::vector<bool> chosen_;
   bool grown_ = false, stuck_ = false, stopped_ = false;
-  double leastMiss_ = kInfinity;  // of any iteration so far
+  double leastMiss_ = kInfinity;  // least value of the largest violation in any iteration so far
   int leastAt_ = 0;
   int line_ = 0;  // points without a gradient since the last iterate
   Eigen::VectorXd iterate_, grownAt_;

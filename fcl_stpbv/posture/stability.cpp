@@ -54,7 +54,7 @@ class ContactRoom : public PostureRows {
   std::vector<SupportPatch> patches_;
   Eigen::Matrix3d world_;
   std::vector<std::vector<Kinematics::Dependence>> carriers_;
-  std::vector<std::size_t> contactOf_;  // of each row
+  std::vector<std::size_t> contactOf_;  // index of the contact of each row
 };
 
 }  // namespace
@@ -107,7 +107,8 @@ void StaticStability::evaluate(const Point& point, Eigen::Ref<Eigen::VectorXd> v
     SupportPatch& patch = patches_->list[c];
     patch.place(point.state.link[at(patches_->links[c])], world_);
     for (int k = 0; k < patch.corners(); ++k, ++weight) {
-      // Seen from the centre of mass: what the weights' sum is off does not grow with the way to the origin.
+      // The corners are seen from the centre of mass. So an error in the sum of the weights is not multiplied
+      // by the distance from the origin.
       const Vector2d away = centre - patch.corner(k);
       values.head<2>() += point.x[weight] * away;
       values[2] += point.x[weight];

@@ -16,7 +16,7 @@ using Eigen::VectorXd;
 namespace {
 
 constexpr long long kAnew = 100000;
-// Joints go up to this part of the way to anywhere within their limits.
+// Joints go up to this share of the way from the start to anywhere within their limits.
 constexpr double kHalfWay = 0.5, kAnywhere = 1;
 
 }  // namespace
@@ -70,7 +70,7 @@ VectorXd Starts::anywhere() {
 }
 
 std::optional<VectorXd> Starts::mended(const VectorXd& from, const SolverOptions& options) {
-  constexpr int kDraws = 400;  // in all
+  constexpr int kDraws = 400;  // in total
   const auto missed = [](const PostureValues& values) { return -values.atLeast.cwiseMin(0).sum(); };
   const auto holds = [&](const PostureValues& values, int row) {
     return values.atLeast[row] >= -options.tolerance;

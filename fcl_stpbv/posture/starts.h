@@ -10,15 +10,15 @@
 
 namespace fcl_stpbv::detail {
 
-/// The starts of a search by their numbers. The problem and the task's start must outlive it.
+/// The starts of a search by their numbers. The problem and the task's start must outlive this object.
 class Starts {
  public:
-  /// From the start number `first` on, not below 0.
+  /// `first` is the number of the first start, not below 0.
   Starts(PostureProblem& problem, const Eigen::VectorXd& start, std::uint64_t seed, long long first);
 
-  /// Number 0 is the task's own. The others are random postures around it: joints up to half way to anywhere
-  /// within their limits, a moving base up to 10 cm and 0.2 rad away, and what has no limits likewise 0.1 m
-  /// or rad.
+  /// The next start. Number 0 is the task's own. The others are random postures around it: joints go up to
+  /// half way to anywhere within their limits, a moving base up to 10 cm and 0.2 rad away, and coordinates
+  /// without limits up to 0.1 m or rad away.
   Eigen::VectorXd next();
 
   /// Repairs the variables x. For each violated inequality, the coordinates on which it depends are redrawn
@@ -27,7 +27,7 @@ class Starts {
   /// a random posture would have to remove all of them at once. No value if x violates no inequality.
   std::optional<Eigen::VectorXd> mended(const Eigen::VectorXd& x, const SolverOptions& options);
 
-  /// A random posture within the limits: the one with the smallest violations of ten.
+  /// A random posture within the limits: of ten, the one with the smallest violations.
   Eigen::VectorXd anywhere();
 
  private:

@@ -29,7 +29,7 @@ using Eigen::Vector3d;
 // as wide.
 constexpr double kUpright = 0.05;
 
-// Without corners that stand out by less than a nanometre, whose edges are next to parallel.
+// The convex hull, without corners that stand out by less than a nanometre: their edges are nearly parallel.
 std::vector<Vector2d> plainHull(const std::vector<Vector2d>& points) {
   constexpr double kFlat = 1e-9;
   std::vector<Vector2d> hull;
@@ -89,7 +89,7 @@ SupportPatch::Meeting SupportPatch::meeting(int first, int second) const {
           (a.length * b.along - b.length * a.along) / (upright_ * sine), sine};
 }
 
-// Lets the edges vanish one after the other. Those that are left at the margin make the corners.
+// Lets the edges vanish one after the other. The edges that are left at the margin make the corners.
 void SupportPatch::choose() {
   constexpr double kParallel = 1e-6;
   std::vector<int> left, kept;
@@ -136,7 +136,7 @@ std::vector<Vector3d> SupportPatch::flatCorners() const {
     const Point& p = flat.points_[i];
     if (p.first < 0)
       corners.push_back(p.local);
-    else if (at(p.first) == i)  // the first of those at one place
+    else if (at(p.first) == i)  // the first of the corners at one place
       corners.push_back(p.local +
                         margin_ / p.sine * (edges_[at(p.second)].local - edges_[at(p.first)].local));
   }
@@ -156,7 +156,8 @@ void SupportPatch::place(const Eigen::Isometry3d& link, const Eigen::Matrix3d& w
   }
   normal_ = link.linear() * u_.cross(v_);
   const double cosine = world.row(2).dot(normal_);
-  const bool steep = std::abs(cosine) < kUpright;  // there a parabola, so that nothing is divided by 0
+  // Near upright a parabola replaces |cosine|, so that nothing is divided by 0.
+  const bool steep = std::abs(cosine) < kUpright;
   upright_ = steep ? cosine * cosine / (2 * kUpright) + kUpright / 2 : std::abs(cosine);
   uprightSlope_ = steep ? cosine / kUpright : cosine < 0 ? -1 : 1;
   choose();
@@ -176,7 +177,7 @@ Vector2d SupportPatch::corner(int i) const {
 
 namespace {
 
-// Change of an edge's direction seen from above, and of its length.
+// Rates of change of an edge's direction seen from above, and of the edge's length.
 template <class Edge>
 std::pair<Vector2d, double> changeOf(const Edge& edge, const Eigen::Matrix3d& world,
                                      const Vector3d& angular) {
@@ -204,8 +205,8 @@ double SupportPatch::room(int row) const {
   return cosine * cosine - kUpright * kUpright;
 }
 
-// The circle's centre stays where it is on the patch, as its best place: there the edges' distances, seen
-// from above, change with their lengths and the slope.
+// The circle's centre is at its best place, so to first order it does not move on the patch. Seen from above,
+// its distances from the edges change with the edges' lengths and the slope of the patch.
 double SupportPatch::roomRate(int row, const Twist& twist) const {
   const double steeper = world_.row(2).dot(twist.angular.cross(normal_));
   if (row == 1) return 2 * world_.row(2).dot(normal_) * steeper;

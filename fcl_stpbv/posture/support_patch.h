@@ -41,18 +41,18 @@ class SupportPatch {
  private:
   struct Point {  // where the lines of two edges meet
     Eigen::Vector3d local;
-    int first = -1, second = -1;  // edges, -1 without a margin
-    double sine = 0;              // of the angle from one to the other
+    int first = -1, second = -1;  // the two edges, -1 without a margin
+    double sine = 0;              // of the angle from the first edge to the second
     Eigen::Vector3d carried{0, 0, 0};
   };
   struct Edge {
-    Eigen::Vector2d from, along;  // in the plane, counter-clockwise about the normal
+    Eigen::Vector2d from, along;  // in the patch's plane; the edges run counter-clockwise about the normal
     Eigen::Vector3d local;        // `along` in the link's frame
     Eigen::Vector3d turned{0, 0, 0};
     Eigen::Vector2d seen{0, 0};
-    double length = 1;  // of `seen`
+    double length = 1;  // length of `seen`
   };
-  struct Meeting {  // of two edges' lines, and where it goes for each m of margin
+  struct Meeting {  // where the lines of two edges meet, and how that point moves per m of margin
     Eigen::Vector2d at, way;
     double sine;
   };
@@ -63,14 +63,15 @@ class SupportPatch {
 
   double margin_ = 0;
   Eigen::Vector3d centre_{0, 0, 0}, u_{0, 0, 0}, v_{0, 0, 0};  // the patch's plane
-  std::vector<Point> points_;                                  // one after each edge
+  std::vector<Point> points_;                                  // the corner after each edge
   std::vector<Edge> edges_;
   Eigen::Matrix3d world_ = Eigen::Matrix3d::Identity();
-  Eigen::Vector3d normal_{0, 0, 1};        // axes of the link's pose
-  double upright_ = 1, uprightSlope_ = 0;  // of the normal: |cosine| with the vertical, and its slope
-  double radius_ = 0;                      // of the largest circle seen from above
-  std::array<int, 3> around_{};            // edges that it touches
-  std::array<double, 3> pull_{};           // normals with these lengths add up to 0
+  Eigen::Vector3d normal_{0, 0, 1};  // the patch's normal, in the axes of the link's pose
+  // |cosine| of the normal with the vertical, and its derivative by the cosine.
+  double upright_ = 1, uprightSlope_ = 0;
+  double radius_ = 0;             // radius of the largest circle in the patch, seen from above
+  std::array<int, 3> around_{};   // the edges that this circle touches
+  std::array<double, 3> pull_{};  // normals of these edges with these lengths add up to 0
 };
 
 }  // namespace fcl_stpbv::detail

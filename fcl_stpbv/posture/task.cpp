@@ -42,7 +42,7 @@ bool holds(const std::vector<int>& links, int link) {
   return links.empty() || std::find(links.begin(), links.end(), link) != links.end();
 }
 
-// The pairs of the robot's own bodies but for those that the task ignores.
+// The pairs of the robot's own bodies, without those that the task ignores.
 std::vector<CheckedPair> ownPairs(const PostureTask& task, const PostureScene& scene) {
   std::vector<CheckedPair> pairs = scene.selfPairs ? *scene.selfPairs
                                    : scene.srdf ? selfPairs(*scene.robot, *scene.geometry, scene.srdf.get())
@@ -62,7 +62,7 @@ std::vector<CheckedPair> ownPairs(const PostureTask& task, const PostureScene& s
   return pairs;
 }
 
-// Which of some pairs with obstacles these lists name.
+// For each of some pairs with obstacles, whether one of these lists names it.
 std::vector<bool> named(const std::vector<LinkObstacles>& lists, const std::vector<CheckedPair>& pairs,
                         const PostureScene& scene, const std::string& where) {
   std::vector<bool> found(pairs.size(), false);
@@ -95,7 +95,7 @@ std::vector<bool> named(const std::vector<LinkObstacles>& lists, const std::vect
 
 std::vector<CheckedPair> searchedPairs(std::shared_ptr<const RobotModel> robot,
                                        std::shared_ptr<const RobotGeometry> geometry) {
-  PairListOptions options;  // which pairs never meet need not be known: they are checked
+  PairListOptions options;  // pairs that never meet need not be known, because they are checked anyway
   options.descents = options.randomDescents = 0;
   options.proofBoxes = 0;
   const auto kinematics = std::make_shared<const Kinematics>(std::move(robot));
@@ -105,7 +105,7 @@ std::vector<CheckedPair> searchedPairs(std::shared_ptr<const RobotModel> robot,
 std::vector<CheckedPair> pairsOf(const PostureTask& task, const PostureScene& scene) {
   std::vector<CheckedPair> pairs;
   if (task.selfCollisions) pairs = ownPairs(task, scene);
-  // Those of links that nothing moves, too: they are checked once.
+  // Pairs of links that nothing moves are included. They are checked once.
   const std::vector<CheckedPair> all =
       obstaclePairs(*scene.robot, *scene.geometry, scene.obstacles.size(), true);
   const std::vector<bool> wanted = named(task.pairs, all, scene, task.path + ": collisions.pairs");
@@ -172,8 +172,8 @@ PostureSetup setUp(const PostureTask& asked, const PostureScene& given, double i
   }
   setup.problem->addStill(nearerThan(task.collisionMargin, still, scene, kinematics, setup.start));
   if (moving.empty()) return setup;
-  // Beyond the margin (or beyond 0, if it is negative), rows equal the distance over the same length as
-  // without a margin.
+  // The lengths over which rows are exact and pairs have influence begin at the margin (or at 0, if it is
+  // negative). So they are the same as without a margin.
   const double from = std::max(0.0, task.collisionMargin);
   ConstraintOptions options;
   options.influence = from + influence;

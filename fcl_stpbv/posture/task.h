@@ -34,15 +34,15 @@ class CentreOfMass {
     Eigen::Vector3d centre;
   };
   struct Motion {
-    int link;  // the first one that it carries
+    int link;  // the first link that it carries
     int coordinate;
   };
   std::vector<Link> links_;
   std::vector<Motion> motions_;
   double mass_ = 0;
   int coordinates_ = 0;
-  std::vector<double> below_;                 // mass of each link and all below it
-  std::vector<Eigen::Vector3d> momentBelow_;  // their masses times positions
+  std::vector<double> below_;                 // mass of each link and all links below it
+  std::vector<Eigen::Vector3d> momentBelow_;  // sum of mass times position over the same links
 };
 
 /// Contact of one link with the ground: the corners of a convex patch, or any points of the link.
@@ -94,10 +94,10 @@ class StaticStability : public PostureRows {
 
 /// A frame of a link and its target pose.
 struct Placement {
-  std::string name;                                          ///< for messages
+  std::string name;                                          ///< name of the placement, for messages
   int link = 0;                                              ///< index into RobotModel::links
-  Eigen::Isometry3d frame = Eigen::Isometry3d::Identity();   ///< in the link's frame
-  Eigen::Isometry3d target = Eigen::Isometry3d::Identity();  ///< in the world
+  Eigen::Isometry3d frame = Eigen::Isometry3d::Identity();   ///< pose of the frame in the link's frame
+  Eigen::Isometry3d target = Eigen::Isometry3d::Identity();  ///< target pose of the frame in the world
   /// Which directions are free, along and about the target's axes: x, y, z, rx, ry, rz. None, one or all
   /// three of the rotations may be free. If one is free, the frame's axis of that name must point in the same
   /// direction as the target's.
@@ -148,11 +148,12 @@ struct PostureScene {
 std::vector<CheckedPair> searchedPairs(std::shared_ptr<const RobotModel> robot,
                                        std::shared_ptr<const RobotGeometry> geometry);
 
-/// All pairs of some links with some obstacles, or, if `self` is given, with some other links of the robot,
-/// or with both if both are given. An empty list means all of its kind.
+/// All pairs of some links with some obstacles. If `self` is given, all pairs of these links with some other
+/// links of the robot; those with obstacles are added if obstacles are named. An empty list means all of its
+/// kind.
 struct LinkObstacles {
-  std::vector<std::string> links;                ///< names; none: all
-  std::vector<std::string> obstacles;            ///< names; none: all
+  std::vector<std::string> links;                ///< names; empty: all
+  std::vector<std::string> obstacles;            ///< names; empty: all
   std::optional<std::vector<std::string>> self;  ///< other links, by name
 
   /// Whether pairs with obstacles are included.
@@ -161,7 +162,7 @@ struct LinkObstacles {
 
 /// A task, with the contents of its file (docs/posture.md). Lengths in m, angles in rad.
 struct PostureTask {
-  std::string path;                        ///< for messages
+  std::string path;                        ///< path of the task file, for messages
   BaseMotion base = BaseMotion::floating;  ///< how the base moves
   bool saysBase = true;                    ///< whether the file states `base`; otherwise it is the default
   std::string state;                       ///< SRDF state to start from; "" for the neutral configuration
@@ -179,18 +180,18 @@ struct PostureTask {
   Eigen::Matrix3d toWorld = Eigen::Matrix3d::Identity();
   /// A placement, with the link's name.
   struct Place {
-    std::string link;     ///< by name
+    std::string link;     ///< name of the link
     Placement placement;  ///< its `link` index is set later, by name
   };
   std::vector<Place> placements;  ///< frames that must reach their targets
   /// A link in contact with the ground.
   struct Touch {
-    std::string link;                     ///< by name
+    std::string link;                     ///< name of the link
     std::vector<Eigen::Vector3d> points;  ///< in the link's frame (m)
   };
-  std::vector<Touch> contacts;        ///< none: no static stability
-  double stabilityMargin = 0;         ///< m
-  double collisionMargin = 0;         ///< m
+  std::vector<Touch> contacts;        ///< empty: no static stability
+  double stabilityMargin = 0;         ///< margin of the static stability (m)
+  double collisionMargin = 0;         ///< margin of the distances (m)
   bool selfCollisions = true;         ///< whether to check the robot's own pairs
   std::vector<LinkObstacles> pairs;   ///< pairs to check; empty: every body against every obstacle
   std::vector<LinkObstacles> ignore;  ///< pairs to leave out, of `pairs` and of the robot's own
@@ -198,7 +199,7 @@ struct PostureTask {
   /// are farther apart. Only the code that makes the scene's bodies uses this, such as the program
   /// find_posture. setUp() takes the bodies as they are.
   bool partsAuto = false;
-  /// If above 1: split all of them into at most this many convex parts each; used like `partsAuto`.
+  /// If above 1: split all concave links into at most this many convex parts each; used like `partsAuto`.
   int parts = 1;
   /// Set by withBaseAtOrigin(): the base's pose of the state is already taken into account.
   bool seenFromBase = false;
@@ -206,13 +207,13 @@ struct PostureTask {
 
 /// Reads a task file. @throws Error naming the file and the key, and what would work.
 PostureTask loadTask(const std::string& path);
-/// The same from a text; `path` stands for it in messages.
+/// loadTask() from a text; `path` stands for the file in messages.
 PostureTask parseTask(const std::string& text, const std::string& path);
 
 /// The optimisation problem of a task, and its start.
 struct PostureSetup {
   std::shared_ptr<PostureProblem> problem;  ///< never null
-  Eigen::VectorXd start;                    ///< q
+  Eigen::VectorXd start;                    ///< coordinates q
   /// The pairs that the problem keeps apart. Pairs whose bodies cannot move relative to each other are only
   /// checked; if they collide they are in PostureProblem::still().
   std::vector<CheckedPair> pairs;

@@ -15,9 +15,9 @@ namespace {
 using namespace detail;
 using nlohmann::json;
 
-constexpr int kMostParts = 64;  // of a link: more make rows without end
+constexpr int kMostParts = 64;  // parts of a link; more would make too many rows
 
-// A value and the way to it, for messages such as "task.json: placements[1].link: ...".
+// A value and the path to it, for messages such as "task.json: placements[1].link: ...".
 class Field {
  public:
   Field(const json& value, std::string where) : value_(value), where_(std::move(where)) {}
@@ -26,7 +26,7 @@ class Field {
     throw Error(where_ + ": expected " + expected);
   }
 
-  // An object with these keys and no others.
+  // Requires an object with these keys and no others.
   const Field& object(const std::set<std::string>& keys) const {
     std::string list;
     for (const std::string& key : keys) list += (list.empty() ? "" : ", ") + key;
@@ -58,7 +58,7 @@ class Field {
       refuse("a number from " + toDecimal(least) + " to " + toDecimal(most));
     return number;
   }
-  // Whether it is the word auto; none says no.
+  // Whether the value is the word auto. The word none gives false.
   bool autoOrNone(const std::string& orElse) const {
     if (value_ != "auto" && value_ != "none") refuse("auto, none or " + orElse);
     return value_ == "auto";

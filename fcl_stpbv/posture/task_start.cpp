@@ -12,7 +12,7 @@
 namespace fcl_stpbv {
 namespace {
 
-// One coordinate by its own name, or all of a joint's.
+// One coordinate by its own name, or all coordinates of a joint by the joint's name.
 std::vector<int> coordinatesNamed(const std::string& name, const Kinematics& kinematics) {
   const std::vector<std::string>& names = kinematics.names();
   const auto own = std::find(names.begin(), names.end(), name);
@@ -83,7 +83,8 @@ PostureCost detail::costOf(const PostureTask& task, const Kinematics& kinematics
                            const Eigen::VectorXd& start) {
   PostureCost cost = quarterCost(kinematics);
   if (task.towardsStart) cost.reference = start;
-  // In the order of the names: a coordinate comes after its joint, "p/y" after "p", and counts over it.
+  // The names are in alphabetical order: a coordinate such as "p/y" comes after its joint "p". So its own
+  // weight counts.
   for (const auto& [joint, weight] : task.weights) {
     const std::vector<int> named = coordinatesNamed(joint, kinematics);
     if (named.empty()) refuseJoint(task.path + ": cost.weights", joint, kinematics);
@@ -131,7 +132,7 @@ std::pair<PostureTask, PostureScene> withBaseAtOrigin(PostureTask task, PostureS
   if (task.base == BaseMotion::fixed) {
     stands = task.basePose;
   } else if (task.base == BaseMotion::planar) {
-    constexpr double kUpright = 1e-6;  // rad: what is written with few digits
+    constexpr double kUpright = 1e-6;  // rad; for angles written with few digits
     const Eigen::Vector3d up = task.basePose.linear().col(2);
     if (!(up.z() > 0 && up.head<2>().norm() <= kUpright))
       throw Error(task.path +
@@ -148,7 +149,7 @@ std::pair<PostureTask, PostureScene> withBaseAtOrigin(PostureTask task, PostureS
     obstacle.pose = back * obstacle.pose;
     obstacle.centre = back * obstacle.centre;
   }
-  if (task.base == BaseMotion::fixed) task.basePose.setIdentity();  // without rounding
+  if (task.base == BaseMotion::fixed) task.basePose.setIdentity();  // exactly, without rounding
   return {std::move(task), std::move(scene)};
 }
 
