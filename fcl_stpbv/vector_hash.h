@@ -6,8 +6,7 @@
 
 namespace fcl_stpbv::detail {
 
-/// Hash of the three coordinates. 0 and -0 are equal but have different hashes; add 0 to each coordinate
-/// first.
+/// Combines the hashes of the three coordinates. 0 and -0 are equal and have the same hash.
 struct VectorHash {
   std::size_t operator()(const Eigen::Vector3d& v) const {
     std::size_t seed = 0;
