@@ -20,9 +20,9 @@ enum class Joining {
 ///
 /// Two links are rigid if only fixed joints lie between them. They are adjacent if exactly one moving joint
 /// lies between them (revolute, continuous or prismatic, but not planar or floating), or several rotating
-/// joints with the same origin (a compound joint, such as the three axes of a ball joint). In addition, no
-/// link between them, nor any link fixed to one of those, may have a body, not even one that could not be
-/// read.
+/// joints with the same origin (a compound joint, such as the three axes of a ball joint). In addition, each
+/// of the two must be the link with a body that is nearest to the joint, counted in fixed joints; no other
+/// one may be as near. Inside a compound joint no link may have a body. A body that could not be read counts.
 class Adjacency {
  public:
   Adjacency(const RobotModel& robot, const RobotGeometry& geometry);
@@ -32,8 +32,8 @@ class Adjacency {
   Eigen::Vector3d originOn(const JointModel& joint, bool parent) const;
 
   const RobotModel& robot_;
-  std::vector<char> body_;               // of each link: whether it has one, known or left out
-  std::vector<int> part_;                // the topmost of the links that are rigidly joined to it
+  std::vector<int> owner_;  // of each link: the nearest one with a body in its part; -1: none or several
+  std::vector<int> part_;   // the topmost of the links that are rigidly joined to it
   std::vector<Eigen::Isometry3d> pose_;  // in the frame of that link
   std::vector<char> partBody_;           // of a topmost link: whether one of its part has a body
 };

@@ -69,10 +69,11 @@ double roomOf(const Kinematics& kinematics, const RobotGeometry& geometry,
 }
 
 double scaleOf(const RobotGeometry& geometry) {
-  constexpr double kUsual = 0.1;  // m
+  constexpr double kSmall = 0.1, kLarge = 1;  // m: usual radii of the largest body
   double largest = 0;
   for (const Body& body : geometry.bodies) largest = std::max(largest, body.radius);
-  return largest > 0 ? std::min(1.0, largest / kUsual) : 1;
+  if (largest > kLarge) return largest / kLarge;
+  return largest > 0 ? std::min(1.0, largest / kSmall) : 1;
 }
 
 }  // namespace

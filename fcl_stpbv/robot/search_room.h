@@ -25,10 +25,12 @@ struct SearchRoom {
   /// bodies. If two bodies can meet at all, they meet within it, without changes of the other joints. Joints
   /// that slide more than a hundred times as far, such as between limits of 1e16 m, end there, too.
   Eigen::VectorXd lower, upper;
-  /// Of a step: 1 (rad or m), less where joints of tiny bodies slide, the size of the room where a coordinate
-  /// has no limits, and more where a joint slides by hundreds of metres.
+  /// Unit of a step: 1 rad for a joint that turns. For a joint that slides it is `scale` (m), or more if the
+  /// joint slides far. For a coordinate without limits it is the size of the room.
   Eigen::VectorXd unit;
-  double scale = 1;  ///< of all distances: 1, less where even the largest body is smaller than 0.1 m
+  /// Scale of all distances (m): 1 if the largest body has a radius of 0.1 to 1 m, otherwise proportionally
+  /// smaller or larger. So robots of any size are searched alike.
+  double scale = 1;
   /// Coordinates whose limits are wider than `lower` and `upper`, and how many times those may be doubled.
   std::vector<Eigen::Index> narrowed;
   int doublings = 0;

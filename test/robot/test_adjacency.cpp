@@ -88,6 +88,18 @@ TEST_CASE(
   CHECK(
       chain(link("x") + joint("j", "prismatic", "a", "x") + joint("k", "revolute", "x", "b")).of("a", "b") ==
       Joining::separate);
+  // Another body fixed to the link between them, as near to the joint as `a`, or nearer.
+  const std::string bodyOnX = link("x") + link("y", kBall) + joint("f", "fixed", "a", "x", far) +
+                              joint("g", "fixed", "x", "y") + joint("j", "revolute", "x", "b");
+  CHECK(chain(bodyOnX).of("a", "b") == Joining::separate);
+  CHECK(chain(bodyOnX).of("y", "b") == Joining::separate);
+  CHECK(chain(bodyOnX).of("b", "a") == Joining::separate);
+  const std::string nearer = link("w") + link("x") + link("y", kBall) + joint("e", "fixed", "a", "w", far) +
+                             joint("f", "fixed", "w", "x") + joint("g", "fixed", "x", "y");
+  CHECK(chain(nearer + joint("j", "revolute", "x", "b")).of("a", "b") == Joining::separate);
+  CHECK(chain(nearer + joint("j", "revolute", "x", "b")).of("y", "b") == Joining::adjacent);
+  CHECK(chain(nearer + joint("j", "revolute", "w", "b")).of("a", "b") == Joining::adjacent);
+  CHECK(chain(nearer + joint("j", "revolute", "w", "b")).of("b", "y") == Joining::separate);
   // A body fixed to the link between them is one that the two move about.
   CHECK(chain(link("x") + link("y", kBall) + joint("j", "revolute", "a", "x") +
               joint("f", "fixed", "x", "y", far) + joint("k", "revolute", "x", "b"))

@@ -137,9 +137,9 @@ TEST_CASE("a screw is searched as far as its nut goes, whatever else it turns") 
   }
 }
 
-TEST_CASE("descents of a robot and of the same one a thousandth as large reach the same") {
+TEST_CASE("descents of small and large robots do not depend on their size") {
   // A block on an arm beside one on a rail, `metre` m for a metre.
-  const auto small = [](double metre) {
+  const auto robotOf = [](double metre) {
     const auto length = [&](double x) {
       std::ostringstream text;
       text << std::setprecision(17) << x * metre;
@@ -166,17 +166,24 @@ TEST_CASE("descents of a robot and of the same one a thousandth as large reach t
             length(-0.1) + "\" upper=\"" + length(0.15) + "\" effort=\"1\" velocity=\"1\"/></joint>",
         {0.005 * metre, 2 * metre});
   };
-  const Arm usual = small(1), tiny = small(1.0 / 1024);
-  const int hand = usual.kinematics->robot().link("hand"), block = usual.kinematics->robot().link("block");
-  PairSearch one(usual.kinematics, usual.geometry, hand, block),
-      other(tiny.kinematics, tiny.geometry, hand, block);
-  const SearchRoom room = searchRoom(*usual.kinematics, *usual.geometry, {});
-  std::mt19937_64 random(1);
-  for (int i = 0; i < 50; ++i) {
-    Eigen::VectorXd q = randomConfiguration(*usual.kinematics, room, random), p = q;
-    p[usual.kinematics->coordinate("rail")] /= 1024;
-    const bool down = i % 2 == 0;
-    const double reached = down ? one.descend(q, -1) : one.climb(q, 1);
-    CHECK(1024 * (down ? other.descend(p, -1) : other.climb(p, 1)) == Approx(reached).margin(1e-5));
+  struct Sizes {
+    double metre, factor;
+  };
+  for (const auto& [metre, factor] : {Sizes{1, 1.0 / 1024}, Sizes{64, 1024}}) {
+    CAPTURE(metre);
+    const Arm usual = robotOf(metre), scaled = robotOf(metre * factor);
+    const int hand = usual.kinematics->robot().link("hand"), block = usual.kinematics->robot().link("block");
+    PairSearch one(usual.kinematics, usual.geometry, hand, block),
+        other(scaled.kinematics, scaled.geometry, hand, block);
+    const SearchRoom room = searchRoom(*usual.kinematics, *usual.geometry, {});
+    std::mt19937_64 random(1);
+    for (int i = 0; i < 50; ++i) {
+      Eigen::VectorXd q = randomConfiguration(*usual.kinematics, room, random), p = q;
+      p[usual.kinematics->coordinate("rail")] *= factor;
+      const bool down = i % 2 == 0;
+      const double reached = down ? one.descend(q, -1) : one.climb(q, 1);
+      const double there = down ? other.descend(p, -1) : other.climb(p, 1);
+      CHECK(there / factor == Approx(reached).margin(1e-5 * metre));
+    }
   }
 }
