@@ -14,7 +14,7 @@ SMOOTH, SECOND, _, FCL, _, OTHER = (METHODS[name][0] for name in METHODS)
 MANIFOLD, ROUNDED_EXACT, ROUNDED_FCL, HACD = "#b8860b", "#4d4d4d", "#8e1c5a", "#7f8f2a"  # other ways to use hulls
 SWEEPS = ("#b0528f", "#2f7f86", "#8c613c", "#333333")  # not methods: settings, robots, scenarios
 PEERS = {"ours": (SMOOTH, 7, "these parts"), "HACD": (HACD, 5, "hulls of HACD's partition")}  # of convex parts
-NEUTRAL, QUIET, GRID = "#555555", "#888888", "#dddddd"
+NEUTRAL, TICKS, QUIET, GRID = "#555555", "#444444", "#888888", "#dddddd"  # small print, tick labels, axes, grid
 
 # Verdicts of the hard cases, from best to worst: (words, colour).
 VERDICTS = (("exact", "#d9e8d4"), ("within 1e-6, or local and said so", "#a9c9e8"), ("gradient jumps", "#f3dc8f"),

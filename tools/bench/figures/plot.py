@@ -62,7 +62,7 @@ def draw(name, title, commands, below=(), height=420, width=WIDTH, crisp=False):
     part = IMAGES / f"{name}.part.svg"
     script = [f"set terminal svg size {width},{height} font 'Helvetica,14' background '#ffffff'",
               "set encoding utf8", f"set output {quoted(str(part))}", "set termoption noenhanced",
-              f"set grid lc rgb '{palette.GRID}'", f"set border 3 lc rgb '{palette.QUIET}'", "set tics nomirror",
+              f"set grid lc rgb '{palette.GRID}'", f"set border 3 lc rgb '{palette.QUIET}'", f"set tics nomirror textcolor rgb '{palette.TICKS}'",
               f"set label 101 {quoted(title)} at screen 0.012,{1 - 20 / height:.4f} left font ',16'"]
     for i, line in enumerate(reversed(below)):
         script.append(f"set label {102 + i} {quoted(line)} at screen 0.012,{(10 + 16 * i) / height:.4f} left font ',11' "
