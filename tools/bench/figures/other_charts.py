@@ -106,7 +106,7 @@ def radii(height=420):
 
 def posture_profile(height=400):
     data = measured("posture_study")
-    colours = {"STP-BV": palette.SMOOTH, "hulls, rounded, exact": palette.ROUNDED_EXACT, "hulls, rounded, FCL": palette.ROUNDED_FCL, "hulls, plain FCL": palette.FCL}
+    colours = {"STP-BV": palette.SMOOTH, "hulls, rounded, exact": palette.HULL_MARGIN, "hulls, rounded, FCL": palette.ROUNDED_FCL, "hulls, plain FCL": palette.FCL}
     tasks = {}
     for row in data["rows"]:
         if row["feasible"]:
@@ -136,7 +136,7 @@ def control(height=440):
     data = [measured("control"), measured("control_more")]
     rows = [row for one in data for row in one["rows"]]
     hull, smooth = "hull + r, r 10 mm", "STP-BV, r 10 mm, R 10 m"
-    colours = {hull: palette.FCL, "manifold, r 10 mm": palette.MANIFOLD, smooth: palette.SMOOTH, "STP-BV, r 10 mm, R 1 m": palette.SECOND}
+    colours = {hull: palette.HULL_MARGIN, "manifold, r 10 mm": palette.MANIFOLD, smooth: palette.SMOOTH, "STP-BV, r 10 mm, R 1 m": palette.SECOND}
     scenarios = list(dict.fromkeys(row["scenario"] for row in rows))
     peak = {(row["scenario"], row["method"]): row["peak"] for row in rows}
     missing = [(x, m) for x, s in enumerate(scenarios) for m in colours if (s, m) not in peak]
