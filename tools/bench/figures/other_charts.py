@@ -131,25 +131,38 @@ def posture_profile(height=400):
     draw("posture_profile", "Postures: all four solve as many in as many steps, STP-BVs in under half of FCL's time", text + "unset multiplot\n", small_print, height)
 
 
-def control(height=440):
-    """Peak joint acceleration in each scenario."""
+def control(height=450):
+    """Peak joint acceleration in each scenario: first where a body moves along a face or an edge, then between round bodies."""
     data = [measured("control"), measured("control_more")]
     rows = [row for one in data for row in one["rows"]]
     hull, smooth = "hull + r, r 10 mm", "STP-BV, r 10 mm, R 10 m"
     colours = {hull: palette.HULL_MARGIN, "manifold, r 10 mm": palette.MANIFOLD, smooth: palette.SMOOTH, "STP-BV, r 10 mm, R 1 m": palette.SECOND}
-    scenarios = list(dict.fromkeys(row["scenario"] for row in rows))
+    round_bodies = {"hand": "round hand", "arms": "forearms"}
+    flat_bodies = [name for name in dict.fromkeys(row["scenario"] for row in rows) if name not in round_bodies]
     peak = {(row["scenario"], row["method"]): row["peak"] for row in rows}
-    missing = [(x, m) for x, s in enumerate(scenarios) for m in colours if (s, m) not in peak]
-    small_print = [f"HRP-2-style robot at 1 kHz, medians of {data[0]['about']['runs']} runs a scenario, no noise. -: not measured.", *(one["command"] for one in data)]
+    places = {name: x for x, name in enumerate(flat_bodies)} | {name: len(flat_bodies) + 0.5 + 1.15 * i for i, name in enumerate(round_bodies)}
+    width = 0.2  # of a bar
+    at = lambda x, i: x + (i - (len(colours) - 1) / 2) * width
+    bars = [[(at(x, i), peak[name, method]) for name, x in places.items() if (name, method) in peak] for i, method in enumerate(colours)]
+    missing = [(at(x, i), 0.25) for name, x in places.items() for i, method in enumerate(colours) if (name, method) not in peak]
+    small_print = [f"HRP-2-style robot at 1 kHz, medians of {data[0]['about']['runs']} runs a scenario, no noise. Manifold: a row for each near pair of features.",
+                   *(one["command"] for one in data)]
     text = single(height, small_print, legend_rows=2) + legend([(c, 5, name) for name, c in colours.items()], height, columns=2) + \
-        block("$peaks", [(s, *(peak.get((s, m)) for m in colours)) for s in scenarios]) + \
-        block("$missing", [(x + (list(colours).index(m) - 1.5) / (len(colours) + 1), 0.25) for x, m in missing]) + \
-        f"set style data histograms\nset style histogram clustered gap 1\nset style fill solid noborder\nset logscale y\nset yrange [0.2:5000]\n" \
-        f"set ytics {ticks(1, 10, 100, 1000)}\nset xlabel 'scenario'\nset ylabel 'peak joint acceleration (rad/s²)' offset 1.5\n"
-    plots = [f"$peaks using {i + 2}{':xtic(1)' if not i else ''} lc rgb '{c}'" for i, c in enumerate(colours.values())]
-    plots += ["$missing using 1:2:('-') with labels font ',14'"] if missing else []
-    times = [peak[s, hull] / peak[s, smooth] for s in scenarios]
-    draw("control", f"Controllers: on hulls the joints' peaks are {min(times):.2g} to {float(f'{max(times):.2g}'):,.0f} times those on STP-BVs with R = 10 m",
+        f"set style fill solid noborder\nset boxwidth {width}\nset logscale y\nset yrange [0.2:5000]\nset xrange [-0.6:{max(places.values()) + 0.6:g}]\n" \
+        f"set ytics {ticks(1, 10, 100, 1000)}\nset grid noxtics\nset ylabel 'peak joint acceleration (rad/s²)' offset 1.5\n" \
+        "set xtics (" + ", ".join(f"'{round_bodies.get(name, name)}' {x:g}" for name, x in places.items()) + ") scale 0\n"
+    for i, (words, names) in enumerate((("along a face or an edge", flat_bodies), ("round bodies", list(round_bodies)))):
+        text += f"set label {200 + i} '{words}' at {(places[names[0]] + places[names[-1]]) / 2:g}, graph -0.17 center\n"
+    plots = []
+    for i, colour in enumerate(colours.values()):
+        text += block(f"$bars{i}", bars[i])
+        plots.append(f"$bars{i} using 1:2 with boxes lc rgb '{colour}'")
+    if missing:
+        text += block("$missing", missing)
+        plots.append(f"$missing using 1:2:('not measured') with labels left rotate by 90 font ',11' tc rgb '{palette.NEUTRAL}'")
+    times = [peak[name, hull] / peak[name, smooth] for name in flat_bodies]
+    digits = lambda value: f"{float(f'{value:.2g}'):,.0f}"
+    draw("control", f"Along a face or an edge hulls give {digits(min(times))} to {digits(max(times))} times the peaks of STP-BVs with R = 10 m",
          text + "plot " + ", ".join(plots), small_print, height)
 
 

@@ -11,7 +11,8 @@ METHODS = {
 }
 # SMOOTH is this library, SECOND another way to use it; FCL stands for polyhedra as FCL users ask for them.
 SMOOTH, SECOND, _, FCL, _, OTHER = (METHODS[name][0] for name in METHODS)
-MANIFOLD, HULL_MARGIN, ROUNDED_FCL, HACD = "#b8860b", "#4d4d4d", "#8e1c5a", "#7f8f2a"  # other ways to use hulls; HULL_MARGIN: with a margin r and exact distances
+# Other ways to use hulls. HULL_MARGIN: a margin r around them, and exact distances.
+MANIFOLD, HULL_MARGIN, ROUNDED_FCL, HACD = "#b8860b", "#4d4d4d", "#8e1c5a", "#7f8f2a"
 SWEEPS = ("#b0528f", "#2f7f86", "#8c613c", "#333333")  # not methods: settings, robots, scenarios
 PEERS = {"ours": (SMOOTH, 7, "these parts"), "HACD": (HACD, 5, "hulls of HACD's partition")}  # of convex parts
 NEUTRAL, TICKS, QUIET, GRID = "#555555", "#444444", "#888888", "#dddddd"  # small print, tick labels, axes, grid
