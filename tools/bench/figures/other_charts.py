@@ -107,15 +107,17 @@ def radii(height=420):
 def posture_profile(height=400):
     data = measured("posture_study")
     colours = {"STP-BV": palette.SMOOTH, "hulls, rounded, exact": palette.HULL_MARGIN, "hulls, rounded, FCL": palette.ROUNDED_FCL, "hulls, plain FCL": palette.FCL}
+    dashed = "hulls, rounded, FCL"  # which lies on the exact ones
     tasks = {}
     for row in data["rows"]:
         if row["feasible"]:
             tasks.setdefault(row["seed"], {})[row["distances"]] = row
     small_print = [f"{len(tasks)} feasible ones of {data['about']['tasks']} random tasks, solved within {data['about']['starts']} starts, free of collisions of the meshes.",
-                   "Across: effort as a multiple of the best method's on the same task.", f"{data['command']}: {data['machine']}"]
+                   f"Across: effort as a multiple of the best method's on the same task. Dashed: {dashed}.", f"{data['command']}: {data['machine']}"]
     text = panels(3, height, small_print, legend_rows=1, panel_titles=True, between=52, left=76) + \
         legend([(colour, 5, name) for name, colour in colours.items()], height, columns=4) + \
-        "set logscale x\nset xrange [1:20]\nset xtics (1, 2, 5, 10, 20)\nset yrange [0:100]\nset xlabel 'times the best'\nset ylabel 'tasks solved (%)'\n"
+        "set logscale x\nset xlabel 'times the best'\nset ylabel 'tasks solved (%)'\n"
+    spans = {"work": "set xrange [1:5]\nset xtics (1, 1.5, 2, 3, 5)\nset yrange [40:100]\n", "time": "set xrange [1:10]\nset xtics (1, 2, 5, 10)\nset yrange [0:100]\n"}
     for panel, (words, column) in enumerate((("iterations", "iterations"), ("distances computed", "calls"), ("time", "seconds"))):
         plots = []
         for i, (name, colour) in enumerate(colours.items()):
@@ -126,8 +128,8 @@ def posture_profile(height=400):
                     ratios.append(good[name] / min(good.values()))
             curve = [(1, 0), *((ratio, 100 * (k + 1) / len(tasks)) for k, ratio in enumerate(sorted(ratios))), (1000, 100 * len(ratios) / len(tasks))]
             text += block(f"$profile{panel}{i}", curve)
-            plots.append(f"$profile{panel}{i} using 1:2 with steps lw 2 lc rgb '{colour}'")
-        text += f"set title '{words}' offset 0,-0.6\nplot " + ", ".join(plots) + "\n" + UNLABEL + "unset ylabel\n"
+            plots.append(f"$profile{panel}{i} using 1:2 with steps lw 2 {'dt (6,4)' if name == dashed else ''} lc rgb '{colour}'")
+        text += spans.get(words, spans["work"]) + f"set title '{words}' offset 0,-0.6\nplot " + ", ".join(plots) + "\n" + UNLABEL + "unset ylabel\n"
     draw("posture_profile", "Postures: all four solve as many in as many steps, STP-BVs in under half of FCL's time", text + "unset multiplot\n", small_print, height)
 
 
@@ -166,28 +168,33 @@ def control(height=450):
          text + "plot " + ", ".join(plots), small_print, height)
 
 
-def clearance(height=440):
-    """What r and R cost in clearance and save in accelerations, for a held box against flat things."""
+def clearance(height=480):
+    """What r and R cost in clearance and save in accelerations, for a held box against flat things. A line: one R, with r growing along it."""
     data = measured("control_radii")
     scenarios = list(dict.fromkeys(row["scenario"] for row in data["rows"]))
     marks = {"R 1 m": 7, "R 3 m": 5, "R 10 m": 8}
-    small_print = ["A held box of 14 x 10 x 6 cm, or two; r = 1, 5 and 10 mm. Lost: what the hulls keep beyond the 10 mm asked for.", data["command"]]
+    small_print = ["A held box of 14 x 10 x 6 cm, or two. A line: one R, with r = 1, 5 and 10 mm. Lost: what the hulls keep beyond the 10 mm asked for.",
+                   data["command"]]
     text = panels(2, height, small_print, legend_rows=2, panel_titles=True) + \
         legend([*((colour, 7, name) for colour, name in zip(palette.SWEEPS, scenarios)),
                 *((palette.NEUTRAL, mark, radius.replace("R", "R =")) for radius, mark in marks.items())], height, columns=4) + \
-        f"set logscale xy\nset xrange [1:300]\nset xtics {ticks(1, 10, 100)}\nset yrange [0.5:50]\nset ytics {ticks(1, 10)}\n" \
-        "set xlabel 'clearance lost (mm)'\nset ylabel 'peak joint acceleration (rad/s²)'\n"
+        "set logscale xy\nset xlabel 'clearance lost (mm)'\nset ylabel 'peak joint acceleration (rad/s²)'\n"
+    spans = (f"set xrange [1.5:200]\nset xtics {ticks(2, 5, 10, 20, 50, 100)}\nset yrange [0.7:40]\nset ytics {ticks(1, 2, 5, 10, 20)}\n",
+             f"set xrange [1.3:40]\nset xtics {ticks(2, 5, 10, 20)}\nset yrange [1:8]\nset ytics {ticks(1, 2, 3, 5)}\n")
     for panel, (start, title) in enumerate((("STP-BV, ", "both bodies smooth"), ("STP-BV | flat, ", "the obstacle flat, with a margin r"))):
         plots = []
         for colour, scenario in zip(palette.SWEEPS, scenarios):
             for radius, mark in marks.items():
-                rows = [(1e3 * row["clearance"] - 10, row["peak"]) for row in data["rows"]
+                rows = [(1e3 * row["clearance"] - 10, row["peak"], row["method"].split(", ")[1]) for row in data["rows"]
                         if row["scenario"] == scenario and row["method"].startswith(start) and row["method"].endswith(radius)]
                 if rows:
                     name = f"$points{panel}_{len(plots)}"
                     text += block(name, rows)
-                    plots.append(f"{name} using 1:2 with points pt {mark} ps 0.9 lc rgb '{colour}'")
-        text += f"set title '{title}' offset 0,-0.6\nplot " + ", ".join(plots) + "\n" + UNLABEL
+                    plots.append(f"{name} using 1:2 with linespoints pt {mark} ps 0.7 lw 1.2 lc rgb '{colour}'")
+                    highest = max(highest, rows, key=lambda line: line[0][1]) if len(plots) > 1 else rows
+        text += block(f"$names{panel}", [(x, y, words.replace("r ", "r = ")) for x, y, words in highest])
+        plots.append(f"$names{panel} using 1:2:3 with labels {'center offset 0,0.9' if panel else 'left offset 0.7,0.6'} font ',12' tc rgb '{palette.NEUTRAL}'")
+        text += spans[panel] + f"set title '{title}' offset 0,-0.6\nplot " + ", ".join(plots) + "\n" + UNLABEL
     draw("clearance", "A small R calms the joints, and costs clearance only where the obstacle is smooth too", text + "unset multiplot\n", small_print, height)
 
 
