@@ -89,17 +89,18 @@ def radii(height=420):
     data = measured("radii")
     robots = list(dict.fromkeys(row["robot"] for row in data["rows"]))
     top = 1.15 * max(row["margin only"] for row in data["rows"]) + 1
-    small_print = ["Pairs in the neutral posture, all but adjacent and rigid ones, R = 10 m. Lines: one r for all links; crosses: r fitted to each link (auto).",
+    small_print = ["Pairs in the neutral posture, all but adjacent and rigid ones, R = 10 m. auto: r fitted to each link.",
                    "By their margins only: the volumes meet, the convex hulls do not. tools/bench/radii"]
-    text = single(height, small_print, legend_rows=1) + legend([(palette.SWEEPS[i], 7, robot) for i, robot in enumerate(robots)], height) + \
-        f"set logscale x\nset xrange [15:700]\nset xtics (25, 50, 100, 200, 500)\nset yrange [0:{top:g}]\n" \
+    text = single(height, small_print, legend_rows=1) + legend([*((palette.SWEEPS[i], 7, robot) for i, robot in enumerate(robots)), (palette.NEUTRAL, 7, "one r for all links"), (palette.NEUTRAL, 2, "auto")],
+               height, columns=5) + \
+        f"set logscale x\nset xrange [15:700]\nset xtics (25, 50, 100, 200, 500)\nset yrange [-2:{top:g}]\nset ytics 0,5\n" \
         "set xlabel 'the normal turns by at most (rad/m), median of all pairs'\nset ylabel 'pairs that collide only by margins'\n"
     plots = []
     for i, robot in enumerate(robots):
         rows = [(row["lipschitz"], row["margin only"], "r = " + row["r"]) for row in data["rows"] if row["robot"] == robot]
         colour = palette.SWEEPS[i]
         text += block(f"$fixed{i}", [row for row in rows if row[2] != "r = auto"]) + block(f"$auto{i}", [row for row in rows if row[2] == "r = auto"])
-        plots += [f"$fixed{i} using 1:2 with linespoints pt 7 ps 0.7 lw 2 lc rgb '{colour}'", f"$auto{i} using 1:2 with points pt 2 ps 1.6 lw 3 lc rgb '{colour}'"]
+        plots += [f"$fixed{i} using 1:2 with linespoints pt 7 ps {1.2 - 0.3 * i:g} lw {4 - 1.2 * i:g} lc rgb '{colour}'", f"$auto{i} using 1:2 with points pt 2 ps 1.6 lw 3 lc rgb '{colour}'"]
     plots.append(f"$fixed0 using 1:({0.93 * top:g}):3 with labels font ',12' tc rgb '{palette.NEUTRAL}'")
     draw("radii", "A smaller r avoids false collisions; the normal may then turn faster", text + "plot " + ", ".join(plots), small_print, height)
 
@@ -302,11 +303,11 @@ def parts(height=440):
     small_print = [f"JVRC-1: the mean of its {links} concave links; excess: the most that a hull is from the mesh's solid. A tick: distances and Jacobian of all",
                    f"pairs of all links' parts, {costs[0]['rows']} to {max(tick['rows'] for tick in costs):,} rows, without what leaves far rows out. Numbers: parts a link at most.",
                    f"{program} --robot {robot}: {data['machine']}"]
-    text = panels(2, height, small_print, legend_rows=1, panel_titles=True, between=72) + \
+    text = panels(2, height, small_print, legend_rows=1) + \
         legend([palette.PEERS[method] for method in curves], height) + \
-        f"set logscale xy\nset yrange [{0.5 * min(y for curve in curves.values() for _, y, _ in curve):g}:{2 * mean(hulls.values()):g}]\nset ytics (0.5, 1, 2, 5, 10, 20, 50)\n"
-    for panel, (column, words, axes) in enumerate(((1, "convex parts of a link, at most", "set xrange [0.9:9]\nset xtics (1, 2, 4, 8)\nset ylabel 'excess over the mesh (mm), mean'\n"),
-                                                   (3, "what all pairs cost, µs a tick", f"set xrange [50:5000]\nset xtics {ticks(50, 100, 200, 500, 1000, 2000, 5000)}\nunset ylabel\n"))):
+        f"set logscale xy\nset yrange [{0.5 * min(y for curve in curves.values() for _, y, _ in curve):g}:{2 * mean(hulls.values()):g}]\nset ytics (0.5, 1, 2, 5, 10, 20, 50)\nset ylabel 'excess over the mesh (mm), mean'\n"
+    for panel, (column, words, axes) in enumerate(((1, "convex parts of a link, at most", "set xrange [0.9:9]\nset xtics (1, 2, 4, 8)\n"),
+                                                   (3, "what all pairs cost, µs a tick", f"set xrange [50:5000]\nset xtics {ticks(50, 100, 200, 500, 1000, 2000, 5000)} font ',12'\n"))):
         plots = []
         for i, (method, curve) in enumerate(curves.items()):
             colour, mark, _ = palette.PEERS[method]

@@ -79,12 +79,14 @@ def solver_error(height=450):
     rows = [row for row in data["rows"] if row["steps"] == "large"]
     tolerance = lambda row: float(row["setting"].split()[1])
     below = origin(data, [f"Geodesic spheres of {data['about']['vertices']} vertices, large steps, {rows[0]['checked']} answers checked, each method against the exact distance of the",
-                          "bodies it is asked about. A method without a tolerance is a level line, with marks anywhere on it; dashed: error = tolerance."])
+                          "bodies it is asked about. A method without a tolerance is a level line, with marks anywhere on it."])
     text = panels(2, height, below, legend_rows=2) + method_legend(rows, height) + \
         "set logscale xy\nset xrange [1e-1:1e-13] reverse\nset xtics ('1e-2' 1e-2, '1e-4' 1e-4, '1e-6' 1e-6, '1e-8' 1e-8, '1e-10' 1e-10, '1e-12' 1e-12)\n" \
         "set xlabel 'tolerance asked for'\n"
     for panel, column in (("error", "distance_error_max"), ("time", "ns_p50")):
         plots = [] if panel == "time" else [f"x with lines dt 2 lc rgb '{palette.QUIET}'"]
+        if panel == "error":
+            text += f"set label 4 'error = tolerance' at 1e-10,1e-9 center rotate by -31 font ',12' tc rgb '{palette.NEUTRAL}'\n"
         levels = []  # of the methods without a tolerance
         for i, (method, (colour, mark, _)) in enumerate(palette.METHODS.items()):
             mine = [row for row in rows if row["method"] == method]
@@ -105,7 +107,7 @@ def solver_error(height=450):
             text += f'set label 3 "{len(together)} lines on each other,\\n{max(together):.0e} m" at graph 0.03,0.24 left font ",12" tc rgb "{palette.NEUTRAL}"\n'
         text += "set format y '1e%T'\nset yrange [1e-17:1]\nset ytics 1e-16,1e4,1\nunset mytics\nset ylabel 'worst error of the distance (m)'\n" if panel == "error" else \
             f"unset format y\nset yrange [60:1e5]\nset ytics {TIME_TICS}\nset ylabel 'median time of a query' offset 1\n"
-        text += "plot " + ", ".join(plots) + "\n" + UNLABEL + "unset label 3\n"
+        text += "plot " + ", ".join(plots) + "\n" + UNLABEL + "unset label 3\nunset label 4\n"
     worst = max(row["distance_error_max"] / tolerance(row) for row in rows if row["method"] == "FCL libccd")
     draw("solver_error", f"FCL libccd's worst error is up to {worst:.0f} times its tolerance; the STP-BV's is rounding" if worst > 1.5 else
          "FCL libccd keeps its tolerance, and takes longer than the STP-BV does to be exact", text + "unset multiplot\n", below, height)
@@ -133,7 +135,7 @@ def model_error(height=430):
             for k, row in enumerate(row for row in rows if row[2] in shown[panel]):
                 text += block(f"$label{panel}{i}{k}", [row])
                 plots.append(f"$label{panel}{i}{k} using 1:2:3 with labels left offset {shown[panel][row[2]]} font ',12' tc rgb '{colour}'")
-        text += f"set ylabel 'gradient: {words}'\nset yrange {span}\nplot " + ", ".join(plots) + "\n" + UNLABEL
+        text += f"set ylabel 'gradient: {words}'\nset yrange {span}\nset ytics {ticks(10, 100, 1000)}\nplot " + ", ".join(plots) + "\n" + UNLABEL
     draw("model_error", "A larger r calms the gradient; a smaller R calms it when bodies turn; both cost over-cover", text + "unset multiplot\n", below, height)
 
 
@@ -185,7 +187,7 @@ def collide(height=460):
     draw("collide", title, text + "unset multiplot\n", small_print, height)
 
 
-def robot(height=460):
+def robot(height=470):
     """Verdicts and distances of whole configurations, for the pairs of two robots."""
     asked = [(what, steps) for what in ("first hit", "all pairs", "d and J") for steps in ("small", "random")]
     ways = (("fcl_stpbv", palette.SMOOTH, 7, "CollisionChecker; d and J: CollisionConstraints"),
@@ -193,9 +195,9 @@ def robot(height=460):
             ("FCL, broadphase", palette.FCL, 7, "FCL's broadphase; d: fcl::distance, no J"),
             ("Bullet, collision world", palette.OTHER, 9, "Bullet's collision world"))
     small_print = origin({**measured("robot"), "command": "robot_bench"}, ["First hit and all pairs: collisions only; d and J: distances. Medians. Not made: a batch of all pairs, Bullet's distances."])
-    text = panels(2, height, small_print, legend_rows=2, panel_titles=True) + \
+    text = panels(2, height, [*small_print, ""], legend_rows=2, panel_titles=True) + \
         legend([(colour, mark, name) for _, colour, mark, name in ways], height, columns=2) + \
-        f"set logscale y\nset ytics {TIME_TICS}\nset yrange [600:4e6]\nset ylabel 'time of a configuration' offset 1\nset xrange [-0.5:{len(asked) - 0.5}]\n" \
+        f"set logscale y\nset ytics {TIME_TICS}\nset yrange [300:2e6]\nset ylabel 'time of a configuration' offset 1\nset xrange [-0.5:{len(asked) - 0.5}]\n" \
         "set xtics (" + ", ".join(f"'{what}, {steps}' {i}" for i, (what, steps) in enumerate(asked)) + ") rotate by 30 right font ',12'\n"
     ratios = {"FCL, broadphase": [], "fcl::distance, no J": []}
     for panel, name in enumerate(("robot", "robot_jvrc1")):
