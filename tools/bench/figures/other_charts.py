@@ -22,24 +22,24 @@ def jump(width=390, height=400):
 def stability():
     """Groups of hard cases from top to bottom, methods from left to right: the worst verdict, and how many failed."""
     data = measured("stability")
-    methods = data["about"]["methods"]
+    methods = stability_verdicts.methods(data)
     groups = stability_verdicts.groups(data)
     failures = stability_verdicts.failures(data)
-    row_height, top, bottom, left = 20, 176, 92, 270
+    row_height, top, bottom, left = 20, 216, 106, 270
     height = top + bottom + row_height * (len(groups) + 1)
     cells, counts = [], []
     for y, (group, cases) in enumerate(groups.items()):
-        for x in range(len(methods)):
-            cell = stability_verdicts.cell(cases, x)
+        for x, method in enumerate(methods):
+            cell = stability_verdicts.cell(cases, method.column)
             cells.append((x, y, palette.VERDICTS[cell.shade][1]))
             if cell.failed:
                 counts.append((x, y, str(cell.failed), "#ffffff" if cell.shade >= 5 else "#222222"))
-    counts += [(x, len(groups), str(failures[method["id"]]), "#222222") for x, method in enumerate(methods)]
+    counts += [(x, len(groups), str(failures[method.id]), "#222222") for x, method in enumerate(methods)]
     text = f"set lmargin at screen {left / 800:.4f}\nset rmargin at screen 0.935\nset bmargin at screen {bottom / height:.4f}\n" \
         f"set tmargin at screen {1 - top / height:.4f}\nunset grid\nset border 0\nset key off\n" \
         f"set xrange [-0.5:{len(methods) - 0.5}]\nset yrange [{len(groups) + 0.5}:-0.5]\n" \
         f"set x2range [-0.5:{len(methods) - 0.5}]\nunset xtics\nset style fill solid noborder\n"
-    names = ", ".join(f"\"{m['title'].replace('STP-BV, paper', 'paper')}\" {x}" for x, m in enumerate(methods))
+    names = ", ".join(f'"{method.title}" {x}' for x, method in enumerate(methods))
     text += f"set x2tics ({names}) rotate by 55 left font ',12' scale 0 offset -0.3,0.2\n"
     text += "set ytics (" + ", ".join(f'"{group} ({len(cases)})" {y}' for y, (group, cases) in enumerate(groups.items())) + \
         f", \"failures of {len(data['rows'])}\" {len(groups)}) font ',12' scale 0\n"
@@ -201,7 +201,7 @@ def clearance(height=480):
 
 def success_map(name, scene, where, across, upward, panel, height, tics, around=()):
     """Places of a grid with a posture: panels by the first axis, the second upwards, the last across. `across` and `upward`: their words.
-    `around`: things drawn over them as (left, low, right, high)."""
+    `around`: things drawn over them as (left, low, right, high), with a cross at 0, 0."""
     data = measured("posture_grid")
     first, second, last = (axis["count"] for axis in data["about"]["axes"][scene])
     axes, rows = data["about"]["axes"][scene], data["about"]["maps"][scene]
@@ -212,8 +212,8 @@ def success_map(name, scene, where, across, upward, panel, height, tics, around=
              ".": (palette.GRID, "not found")}
     warm, cold = totals["neighbours"], totals["independent"]
     kinds = {mark: look for mark, look in kinds.items() if any(mark in row for row in rows)}
-    title = f"Starts from the neighbours' postures reach {warm['found']:,} of {warm['places']:,} places, independent ones {cold['found']}"
-    small_print = [f"{where}; {data['about']['starts']} starts of its own for each place.",
+    title = f"{scene.capitalize()}: starts from the neighbours' postures reach {warm['found']:,} of {warm['places']:,} places, independent ones {cold['found']}"
+    small_print = [f"{where} {data['about']['starts']} starts of its own for each place.",
                    f"{data['command']}: {data['machine']}"]
     text = panels(first, height, small_print, legend_rows=1, panel_titles=True, between=18) + legend([(c, 5, words) for c, words in kinds.values()], height) + \
         f"unset grid\nset style fill solid noborder\nset xtics {tics} font ',12'\nset xlabel {quoted(across)}\nset ylabel {quoted(upward)}\n" \
@@ -228,6 +228,9 @@ def success_map(name, scene, where, across, upward, panel, height, tics, around=
                 text += block(f"$cells{i}_{k}", cells)
                 x, y = 0.5 * step(axes[2]), 0.5 * step(axes[1])
                 plots.append(f"$cells{i}_{k} using 1:2:($1-{x:g}):($1+{x:g}):($2-{y:g}):($2+{y:g}) with boxxyerror fc rgb '{colour}'")
+        if around:
+            text += block(f"$origin{i}", [(0, 0)])
+            plots.append(f"$origin{i} with points pt 1 ps 0.8 lw 2 lc rgb '#222222'")
         text += f"set title {quoted(panel(at(axes[0], i)))} offset 0,-0.6\nplot " + ", ".join(plots or ["NaN"]) + "\n" + UNLABEL + "unset ylabel\nset format y ''\n"
     draw(name, title, text + "unset multiplot\n", small_print, height, crisp=True)
 
@@ -246,13 +249,13 @@ def boxes_beside(urdf, place):
 
 def posture_grid_fridge(height=400):
     can = (0.52, 0.17, 0.96)  # the hand's place around it in data/fridge/reach.json
-    success_map("posture_grid_fridge", "fridge", "The left hand around the can, by where the feet stand; outlined: the fridge where the hand moves", "forward (m)",
+    success_map("posture_grid_fridge", "fridge", "The left hand, by where the feet stand. Cross at 0, 0: around the can where it stands. Outlines: the fridge.", "forward (m)",
                 "upward (m)", lambda value: f"feet {-100 * value:.0f} cm back" if value else "feet in front", height, 0.2,
                 boxes_beside(PROJECT / "data/fridge/fridge.urdf", can))
 
 
 def posture_grid_ladder(height=340):
-    success_map("posture_grid_ladder", "ladder", "The hands on the rungs, by the left foot's rung", "hands to the left (m)", "rungs above the third",
+    success_map("posture_grid_ladder", "ladder", "The hands, by the left foot's rung. 0 to the left: where data/ladder/climb.json puts them.", "hands to the left (m)", "rungs above the third",
                 lambda value: f"left foot {value:.0f} rung{'s' * (value > 1)} up" if value else "feet on one rung", height, 0.2)
 
 

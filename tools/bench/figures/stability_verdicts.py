@@ -1,10 +1,21 @@
 """The hard cases' verdicts, grouped and counted: for the chart and the tables of docs/stability.md."""
 import collections
 
+from . import palette
+
 # From best to worst, as test/reference/stability/judge.h has them.
 ORDER = ("exact", "global", "local", "within tolerance", "jump", "wrong", "no answer", "NaN", "exception", "hang", "abort")
 FIRST_FAILURE = ORDER.index("jump")
+Method = collections.namedtuple("Method", "column id title")  # column: in each row's verdicts
 Cell = collections.namedtuple("Cell", "failed shade words")
+
+
+def methods(data):
+    """The methods with the names that all charts use, this library's first, the best of them in front."""
+    named = [Method(column, method["id"], palette.METHODS[method["title"]][2] if method["title"] in palette.METHODS else method["title"])
+             for column, method in enumerate(data["about"]["methods"])]
+    ours = [method for method in named if method.id.startswith("stpbv")]
+    return ours[::-1] + [method for method in named if method not in ours]
 
 
 def groups(data):

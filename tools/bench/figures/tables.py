@@ -4,7 +4,7 @@ A table begins with the commands that were run, so that the figures stand beside
 """
 import statistics
 
-from . import stability_verdicts
+from . import palette, stability_verdicts
 from .plot import captured, is_text, measured
 
 TABLES = {}
@@ -85,7 +85,7 @@ def solver_error():
     rows = [row for row in measured("solver_error")["rows"] if row["steps"] == "large"]
     return markdown(("method", "setting", "median time (ns)", "distance, 99th percentile (m)", "distance, worst (m)", "normal, worst (rad)",
                      "of answers checked", "off by > 1 µm", "no answer"),
-                    [(row["method"], row["setting"], f"{row['ns_p50']:.0f}", *(f"{row[key]:.1e}" for key in
+                    [(palette.METHODS[row["method"]][2], row["setting"], f"{row['ns_p50']:.0f}", *(f"{row[key]:.1e}" for key in
                       ("distance_error_p99", "distance_error_max", "normal_error_max")), row["checked"], row["off_by_more_than_1e-6"], row["missed"])
                      for row in rows if row["setting"] not in ("tolerance 1e-04", "tolerance 1e-08", "tolerance 1e-12", "cold") or row["method"].startswith("STP")])
 
@@ -230,20 +230,19 @@ def mirrored_limbs():
 @table("stability")
 def stability_totals():
     data = measured("stability")
-    methods = data["about"]["methods"]
     failures = stability_verdicts.failures(data)
-    count = lambda verdict, m: sum(row["verdicts"][m] == verdict for row in data["rows"])
-    return markdown((f"{len(data['rows'])} cases", *(m["title"] for m in methods)),
-                    [(verdict, *(count(verdict, m) for m in range(len(methods)))) for verdict in stability_verdicts.ORDER] +
-                    [("**failures**", *(f"**{failures[m['id']]}**" for m in methods))])
+    count = lambda verdict, column: sum(row["verdicts"][column] == verdict for row in data["rows"])
+    return markdown((f"{len(data['rows'])} cases", *stability_verdicts.ORDER, "failures"),
+                    [(method.title, *(count(verdict, method.column) for verdict in stability_verdicts.ORDER), f"**{failures[method.id]}**")
+                     for method in stability_verdicts.methods(data)])
 
 
 @table()
 def stability_groups():
     data = measured("stability")
-    methods = data["about"]["methods"]
-    return markdown(("group (cases)", *(m["title"] for m in methods)),
-                    [(f"{group} ({len(cases)})", *(stability_verdicts.cell(cases, m).words for m in range(len(methods))))
+    methods = stability_verdicts.methods(data)
+    return markdown(("group (cases)", *(method.title for method in methods)),
+                    [(f"{group} ({len(cases)})", *(stability_verdicts.cell(cases, method.column).words for method in methods))
                      for group, cases in stability_verdicts.groups(data).items()])
 
 
