@@ -2,6 +2,7 @@
 
 A table begins with the commands that were run, so that the figures stand beside what made them.
 """
+import re
 import statistics
 
 from . import palette, stability_verdicts
@@ -23,8 +24,12 @@ def table(*sources):
 
 
 def markdown(head, rows):
+    """Columns of numbers stand on the right, so that their digits are below each other."""
     line = lambda cells: "| " + " | ".join(str(cell) for cell in cells) + " |"
-    return [line(head), "|" + "---|" * len(head), *map(line, rows)]
+    cells = [[str(cell) for cell in row] for row in rows]
+    number = lambda words: re.match(r"(\*\*)?[-+]?[0-9]", words)
+    numbers = lambda column: any(map(number, column)) and all(number(words) or words in ("", "-") for words in column)
+    return [line(head), "|" + "".join("---:|" if numbers(column) else "---|" for _, *column in zip(head, *cells)), *map(line, cells)]
 
 
 def span(values):
