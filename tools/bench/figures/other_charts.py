@@ -1,20 +1,19 @@
-"""Charts of the jump, the hard cases, proofs, postures and controllers."""
+"""Charts of the jump, the hard cases, proofs, radii, parts and controllers."""
 import pathlib
 import statistics
-import xml.etree.ElementTree as xml
 
 from . import palette, stability_verdicts
-from .plot import PROJECT, UNLABEL, block, captured, draw, legend, measured, origin, panels, quoted, single, ticks
+from .plot import UNLABEL, block, captured, draw, legend, measured, origin, panels, single, ticks
 
 
-def jump(width=390, height=400):
-    """The README's picture, as wide as it is shown there: the derivative as a box rocks past parallel faces."""
+def jump(width=350, height=294):
+    """The README's picture, as wide as it is shown there: the derivative with the angle, as a box rocks past parallel faces."""
     command, lines = captured("jump_sweep")
     small_print = ["A 20 cm box rocks over a plate; r = 1 cm, R = 10 m on both.", command]
-    text = single(height, small_print, legend_rows=1, width=width) + \
+    text = single(height, small_print, legend_rows=1, width=width, left=72) + \
         legend([(palette.FCL, 5, "polyhedra, by FCL"), (palette.SMOOTH, 5, "STP-BVs over them")], height, columns=2, width=width) + \
         block("$sweep", [map(float, line.split(",")) for line in lines[1:]]) + "set xlabel 'angle of the box to the plate (degrees)'\nset xrange [-2:2]\n" \
-        "set xtics 1\nset ylabel 'derivative with the angle (m/rad)'\nset yrange [-0.12:0.12]\n" \
+        "set xtics 1\nset ylabel 'derivative (m/rad)'\nset yrange [-0.12:0.12]\nset ytics 0.1\n" \
         f"plot $sweep using 1:3 with points pt 7 ps 0.3 lc rgb '{palette.FCL}', '' using 1:5 with lines lw 3 lc rgb '{palette.SMOOTH}'"
     draw("jump", "The derivative jumps on polyhedra only", text, small_print, height, width)
 
@@ -91,8 +90,8 @@ def radii(height=420):
     top = 1.15 * max(row["margin only"] for row in data["rows"]) + 1
     small_print = ["Pairs in the neutral posture, all but adjacent and rigid ones, R = 10 m. auto: r fitted to each link.",
                    "By their margins only: the volumes meet, the convex hulls do not. tools/bench/radii"]
-    text = single(height, small_print, legend_rows=1) + legend([*((palette.SWEEPS[i], 7, robot) for i, robot in enumerate(robots)), (palette.NEUTRAL, 7, "one r for all links"), (palette.NEUTRAL, 2, "auto")],
-               height, columns=5) + \
+    entries = [*((palette.SWEEPS[i], 7, robot) for i, robot in enumerate(robots)), (palette.NEUTRAL, 7, "one r for all links"), (palette.NEUTRAL, 2, "auto")]
+    text = single(height, small_print, legend_rows=1) + legend(entries, height, columns=5) + \
         f"set logscale x\nset xrange [15:700]\nset xtics (25, 50, 100, 200, 500)\nset yrange [-2:{top:g}]\nset ytics 0,5\n" \
         "set xlabel 'the normal turns by at most (rad/m), median of all pairs'\nset ylabel 'pairs that collide only by margins'\n"
     plots = []
@@ -100,38 +99,10 @@ def radii(height=420):
         rows = [(row["lipschitz"], row["margin only"], "r = " + row["r"]) for row in data["rows"] if row["robot"] == robot]
         colour = palette.SWEEPS[i]
         text += block(f"$fixed{i}", [row for row in rows if row[2] != "r = auto"]) + block(f"$auto{i}", [row for row in rows if row[2] == "r = auto"])
-        plots += [f"$fixed{i} using 1:2 with linespoints pt 7 ps {1.2 - 0.3 * i:g} lw {4 - 1.2 * i:g} lc rgb '{colour}'", f"$auto{i} using 1:2 with points pt 2 ps 1.6 lw 3 lc rgb '{colour}'"]
+        plots += [f"$fixed{i} using 1:2 with linespoints pt 7 ps {1.2 - 0.3 * i:g} lw {4 - 1.2 * i:g} lc rgb '{colour}'",
+                  f"$auto{i} using 1:2 with points pt 2 ps 1.6 lw 3 lc rgb '{colour}'"]
     plots.append(f"$fixed0 using 1:({0.93 * top:g}):3 with labels font ',12' tc rgb '{palette.NEUTRAL}'")
     draw("radii", "A smaller r avoids false collisions; the normal may then turn faster", text + "plot " + ", ".join(plots), small_print, height)
-
-
-def posture_profile(height=400):
-    data = measured("posture_study")
-    colours = {"STP-BV": palette.SMOOTH, "hulls, rounded, exact": palette.HULL_MARGIN, "hulls, rounded, FCL": palette.ROUNDED_FCL, "hulls, plain FCL": palette.FCL}
-    dashed = "hulls, rounded, FCL"  # which lies on the exact ones
-    tasks = {}
-    for row in data["rows"]:
-        if row["feasible"]:
-            tasks.setdefault(row["seed"], {})[row["distances"]] = row
-    small_print = [f"{len(tasks)} feasible ones of {data['about']['tasks']} random tasks, solved within {data['about']['starts']} starts, free of collisions of the meshes.",
-                   f"Across: effort as a multiple of the best method's on the same task. Dashed: {dashed}.", f"{data['command']}: {data['machine']}"]
-    text = panels(3, height, small_print, legend_rows=1, panel_titles=True, between=52, left=76) + \
-        legend([(colour, 5, name) for name, colour in colours.items()], height, columns=4) + \
-        "set logscale x\nset xlabel 'times the best'\nset ylabel 'tasks solved (%)'\n"
-    spans = {"work": "set xrange [1:5]\nset xtics (1, 1.5, 2, 3, 5)\nset yrange [40:100]\n", "time": "set xrange [1:10]\nset xtics (1, 2, 5, 10)\nset yrange [0:100]\n"}
-    for panel, (words, column) in enumerate((("iterations", "iterations"), ("distances computed", "calls"), ("time", "seconds"))):
-        plots = []
-        for i, (name, colour) in enumerate(colours.items()):
-            ratios = []
-            for results in tasks.values():
-                good = {k: r[column] for k, r in results.items() if r["solved"] and r["clear"]}
-                if name in good:
-                    ratios.append(good[name] / min(good.values()))
-            curve = [(1, 0), *((ratio, 100 * (k + 1) / len(tasks)) for k, ratio in enumerate(sorted(ratios))), (1000, 100 * len(ratios) / len(tasks))]
-            text += block(f"$profile{panel}{i}", curve)
-            plots.append(f"$profile{panel}{i} using 1:2 with steps lw 2 {'dt (6,4)' if name == dashed else ''} lc rgb '{colour}'")
-        text += spans.get(words, spans["work"]) + f"set title '{words}' offset 0,-0.6\nplot " + ", ".join(plots) + "\n" + UNLABEL + "unset ylabel\n"
-    draw("posture_profile", "Postures: all four solve as many in as many steps, STP-BVs in under half of FCL's time", text + "unset multiplot\n", small_print, height)
 
 
 def control(height=450):
@@ -148,7 +119,8 @@ def control(height=450):
     at = lambda x, i: x + (i - (len(colours) - 1) / 2) * width
     bars = [[(at(x, i), peak[name, method]) for name, x in places.items() if (name, method) in peak] for i, method in enumerate(colours)]
     missing = [(at(x, i), 0.25) for name, x in places.items() for i, method in enumerate(colours) if (name, method) not in peak]
-    small_print = [f"HRP-2-style robot at 1 kHz, medians of {data[0]['about']['runs']} runs a scenario, no noise. Manifold: a row for each near pair of features.",
+    small_print = [f"HRP-2-style robot at 1 kHz, medians of {data[0]['about']['runs']} runs a scenario, no noise. "
+                   "Manifold: a row for each near pair of features.",
                    *(one["command"] for one in data)]
     text = single(height, small_print, legend_rows=2) + legend([(c, 5, name) for name, c in colours.items()], height, columns=2) + \
         f"set style fill solid noborder\nset boxwidth {width}\nset logscale y\nset yrange [0.2:5000]\nset xrange [-0.6:{max(places.values()) + 0.6:g}]\n" \
@@ -183,7 +155,7 @@ def clearance(height=480):
     spans = (f"set xrange [1.5:200]\nset xtics {ticks(2, 5, 10, 20, 50, 100)}\nset yrange [0.7:40]\nset ytics {ticks(1, 2, 5, 10, 20)}\n",
              f"set xrange [1.3:40]\nset xtics {ticks(2, 5, 10, 20)}\nset yrange [1:8]\nset ytics {ticks(1, 2, 3, 5)}\n")
     for panel, (start, title) in enumerate((("STP-BV, ", "both bodies smooth"), ("STP-BV | flat, ", "the obstacle flat, with a margin r"))):
-        plots = []
+        plots, lines = [], []
         for colour, scenario in zip(palette.SWEEPS, scenarios):
             for radius, mark in marks.items():
                 rows = [(1e3 * row["clearance"] - 10, row["peak"], row["method"].split(", ")[1]) for row in data["rows"]
@@ -192,71 +164,12 @@ def clearance(height=480):
                     name = f"$points{panel}_{len(plots)}"
                     text += block(name, rows)
                     plots.append(f"{name} using 1:2 with linespoints pt {mark} ps 0.7 lw 1.2 lc rgb '{colour}'")
-                    highest = max(highest, rows, key=lambda line: line[0][1]) if len(plots) > 1 else rows
+                    lines.append(rows)
+        highest = max(lines, key=lambda line: line[0][1])  # has room above for the names
         text += block(f"$names{panel}", [(x, y, words.replace("r ", "r = ")) for x, y, words in highest])
         plots.append(f"$names{panel} using 1:2:3 with labels {'center offset 0,0.9' if panel else 'left offset 0.7,0.6'} font ',12' tc rgb '{palette.NEUTRAL}'")
         text += spans[panel] + f"set title '{title}' offset 0,-0.6\nplot " + ", ".join(plots) + "\n" + UNLABEL
     draw("clearance", "A small R calms the joints, and costs clearance only where the obstacle is smooth too", text + "unset multiplot\n", small_print, height)
-
-
-def success_map(name, scene, where, across, upward, panel, height, tics, around=()):
-    """Places of a grid with a posture: panels by the first axis, the second upwards, the last across. `across` and `upward`: their words.
-    `around`: things drawn over them as (left, low, right, high), with a cross at 0, 0."""
-    data = measured("posture_grid")
-    first, second, last = (axis["count"] for axis in data["about"]["axes"][scene])
-    axes, rows = data["about"]["axes"][scene], data["about"]["maps"][scene]
-    at = lambda axis, i: axis["from"] + (axis["to"] - axis["from"]) * i / max(1, axis["count"] - 1)
-    step = lambda axis: (axis["to"] - axis["from"]) / max(1, axis["count"] - 1)
-    totals = {row["way"]: row for row in data["rows"] if row["scene"] == scene}
-    kinds = {"b": (palette.SWEEPS[1], "found both ways"), "n": (palette.SWEEPS[0], "only from the neighbours"), "i": (palette.SWEEPS[2], "only independently"),
-             ".": (palette.GRID, "not found")}
-    warm, cold = totals["neighbours"], totals["independent"]
-    kinds = {mark: look for mark, look in kinds.items() if any(mark in row for row in rows)}
-    title = f"{scene.capitalize()}: starts from the neighbours' postures reach {warm['found']:,} of {warm['places']:,} places, independent ones {cold['found']}"
-    small_print = [f"{where} {data['about']['starts']} starts of its own for each place.",
-                   f"{data['command']}: {data['machine']}"]
-    text = panels(first, height, small_print, legend_rows=1, panel_titles=True, between=18) + legend([(c, 5, words) for c, words in kinds.values()], height) + \
-        f"unset grid\nset style fill solid noborder\nset xtics {tics} font ',12'\nset xlabel {quoted(across)}\nset ylabel {quoted(upward)}\n" \
-        f"set xrange [{at(axes[2], -0.7):g}:{at(axes[2], last - 0.3):g}]\nset yrange [{at(axes[1], -0.7):g}:{at(axes[1], second - 0.3):g}]\n"
-    for i, (left, low, right, high) in enumerate(around):
-        text += f"set object {i + 1} rectangle from {left:.3f},{low:.3f} to {right:.3f},{high:.3f} front fs empty border lc rgb '#222222' lw 1.5\n"
-    for i in range(first):
-        plots = []
-        for k, (mark, (colour, _)) in enumerate(kinds.items()):
-            cells = [(at(axes[2], x), at(axes[1], y)) for y in range(second) for x, found in enumerate(rows[i * second + y]) if found == mark]
-            if cells:
-                text += block(f"$cells{i}_{k}", cells)
-                x, y = 0.5 * step(axes[2]), 0.5 * step(axes[1])
-                plots.append(f"$cells{i}_{k} using 1:2:($1-{x:g}):($1+{x:g}):($2-{y:g}):($2+{y:g}) with boxxyerror fc rgb '{colour}'")
-        if around:
-            text += block(f"$origin{i}", [(0, 0)])
-            plots.append(f"$origin{i} with points pt 1 ps 0.8 lw 2 lc rgb '#222222'")
-        text += f"set title {quoted(panel(at(axes[0], i)))} offset 0,-0.6\nplot " + ", ".join(plots or ["NaN"]) + "\n" + UNLABEL + "unset ylabel\nset format y ''\n"
-    draw(name, title, text + "unset multiplot\n", small_print, height, crisp=True)
-
-
-def boxes_beside(urdf, place):
-    """The boxes of a scene that lie in the place's plane across y, as (left, low, right, high) from the place (m)."""
-    scene, found = xml.parse(urdf).getroot(), []
-    for joint in scene.iter("joint"):
-        box = scene.find(f"link[@name='{joint.find('child').get('link')}']/collision/geometry/box")
-        if box is not None:
-            x, y, z = (float(at) - mine for at, mine in zip(joint.find("origin").get("xyz").split(), place))
-            length, width, height = (float(size) / 2 for size in box.get("size").split())
-            found += [(x - length, z - height, x + length, z + height)] if abs(y) < width else []
-    return found
-
-
-def posture_grid_fridge(height=400):
-    can = (0.52, 0.17, 0.96)  # the hand's place around it in data/fridge/reach.json
-    success_map("posture_grid_fridge", "fridge", "The left hand, by where the feet stand. Cross at 0, 0: around the can where it stands. Outlines: the fridge.", "forward (m)",
-                "upward (m)", lambda value: f"feet {-100 * value:.0f} cm back" if value else "feet in front", height, 0.2,
-                boxes_beside(PROJECT / "data/fridge/fridge.urdf", can))
-
-
-def posture_grid_ladder(height=340):
-    success_map("posture_grid_ladder", "ladder", "The hands, by the left foot's rung. 0 to the left: where data/ladder/climb.json puts them.", "hands to the left (m)", "rungs above the third",
-                lambda value: f"left foot {value:.0f} rung{'s' * (value > 1)} up" if value else "feet on one rung", height, 0.2)
 
 
 def advice(height=460):
@@ -308,9 +221,11 @@ def parts(height=440):
                    f"{program} --robot {robot}: {data['machine']}"]
     text = panels(2, height, small_print, legend_rows=1) + \
         legend([palette.PEERS[method] for method in curves], height) + \
-        f"set logscale xy\nset yrange [{0.5 * min(y for curve in curves.values() for _, y, _ in curve):g}:{2 * mean(hulls.values()):g}]\nset ytics (0.5, 1, 2, 5, 10, 20, 50)\nset ylabel 'excess over the mesh (mm), mean'\n"
+        f"set logscale xy\nset yrange [{0.5 * min(y for curve in curves.values() for _, y, _ in curve):g}:{2 * mean(hulls.values()):g}]\nset ytics (0.5, 1, 2, 5, 10, 20, 50)\n" \
+        "set ylabel 'excess over the mesh (mm), mean'\n"
     for panel, (column, words, axes) in enumerate(((1, "convex parts of a link, at most", "set xrange [0.9:9]\nset xtics (1, 2, 4, 8)\n"),
-                                                   (3, "what all pairs cost, µs a tick", f"set xrange [50:5000]\nset xtics {ticks(50, 100, 200, 500, 1000, 2000, 5000)} font ',12'\n"))):
+                                                   (3, "what all pairs cost, µs a tick",
+                                                    f"set xrange [50:5000]\nset xtics {ticks(50, 100, 200, 500, 1000, 2000, 5000)} font ',12'\n"))):
         plots = []
         for i, (method, curve) in enumerate(curves.items()):
             colour, mark, _ = palette.PEERS[method]
@@ -324,4 +239,4 @@ def parts(height=440):
     draw("parts", f"Four parts a link: on average {at['ours', 4]:.2g} mm from the mesh, HACD's {at['HACD', 4]:.2g} mm", text + "unset multiplot\n", small_print, height)
 
 
-CHARTS = (jump, stability, proof_boxes, radii, parts, posture_profile, control, clearance, advice, posture_grid_fridge, posture_grid_ladder)
+CHARTS = (jump, stability, proof_boxes, radii, parts, control, clearance, advice)

@@ -32,9 +32,9 @@ def markdown(head, rows):
     return [line(head), "|" + "".join("---:|" if numbers(column) else "---|" for _, *column in zip(head, *cells)), *map(line, cells)]
 
 
-def span(values):
-    """The range of some values, to one digit after the point."""
-    low, high = f"{min(values):.1f}", f"{max(values):.1f}"
+def span(values, digits=1):
+    """The range of some values, to so many digits after the point."""
+    low, high = f"{min(values):.{digits}f}", f"{max(values):.{digits}f}"
     return low if low == high else f"{low} to {high}"
 
 
@@ -42,13 +42,11 @@ def span(values):
 def first_page():
     rows, verdicts = measured("summary")["rows"], measured("stability")
     failures = stability_verdicts.failures(verdicts)
-    whole = lambda key: span([row[key] for row in rows])
-    drop_in = lambda motion: next(f"{row['ns_fcl'] / row['ns_exact_warm']:.1f}" for row in measured("adapter")["rows"]
-                                  if row["shape"] == "geodesic 162" and row["motion"] == motion)
-    return [f"- **Fast**: a query is {whole('speedup_small_162')} times as fast as `fcl::distance` after small motions and "
-            f"{whole('speedup_large_162')} times after large",
-            "  ones ([performance](docs/performance.md), `speed_accuracy --summary`); through FCL's objects, with closer bodies,",
-            f"  {drop_in('small')} and {drop_in('large')} times ([fcl](docs/fcl.md), `adapter_figures`).",
+    whole = [statistics.median(row[key] for row in rows) for key in ("speedup_small_162", "speedup_large_162")]
+    drop_in = [row["ns_fcl"] / row["ns_exact_warm"] for row in measured("adapter")["rows"]
+               if row["shape"] == "geodesic 162" and row["motion"] in ("small", "large")]
+    return [f"- **Fast**: a query is {span(whole, 0)} times as fast as `fcl::distance` ([performance](docs/performance.md), `speed_accuracy --summary`),",
+            f"  through FCL's objects and with closer bodies about {span(drop_in, 0)} times ([fcl](docs/fcl.md), `adapter_figures`).",
             f"- **Robust**: {len(verdicts['rows'])} hard cases with {failures['stpbv_warm']} failures, where FCL fails {failures['fcl_libccd_1e-6']} "
             "([stability](docs/stability.md), `stability`).",
             "- **Exact** to rounding. Every answer has a lower and an upper bound, between which the truth lies, rounding included",
