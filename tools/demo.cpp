@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <random>
 
 #include "fcl_stpbv/adapter/polyhedral_witness.h"
@@ -30,8 +31,6 @@ double seconds(std::chrono::steady_clock::time_point since) {
 void heading(const std::string& text) {
   std::printf("\n%s\n%s\n", text.c_str(), std::string(text.size(), '-').c_str());
 }
-
-std::string millimetres(double metres) { return detail::formatted("%g", std::round(metres * 1e6) / 1e3); }
 
 struct PlainFcl {
   double distance;
@@ -59,34 +58,34 @@ double angle(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
 }
 
 void printVolumes(const RobotModel& robot, const RobotGeometry& geometry, double time) {
-  heading("Links as STP-BVs (r = 10 mm, R = 10 m)");
-  std::printf("%-14s %8s %8s %8s %15s\n", "link", "vertices", "edges", "faces", "over-cover [mm]");
+  int fewest = std::numeric_limits<int>::max(), most = 0;
+  double cover = 0;
   for (const Body& body : geometry.bodies) {
-    std::printf("%-14s %8d %8d %8d %15.3f\n", body.name.c_str(), body.volume->vertexCount(),
-                body.volume->edgeCount(), body.volume->faceCount(), body.cover.max * kMm);
+    fewest = std::min(fewest, body.volume->vertexCount());
+    most = std::max(most, body.volume->vertexCount());
+    cover = std::max(cover, body.cover.max);
   }
-  std::printf("%zu of %zu links, read and built in %.2f s\n", geometry.bodies.size(), robot.links.size(),
-              time);
+  std::printf(
+      "%zu of %zu links as STP-BVs (r = 10 mm, R = 10 m), read and built in %.2f s:\n"
+      "%d to %d vertices each, at most %.1f mm beyond the hull.\n",
+      geometry.bodies.size(), robot.links.size(), time, fewest, most, cover * kMm);
 }
 
-// The joints that change this distance most.
+// The joint that changes this distance most.
 std::string steepest(const PosedRobot& posed, const Kinematics& kinematics, int link1, int link2,
                      const DistanceAnswer& answer) {
-  std::vector<std::pair<double, std::string>> slopes;
+  double slope = 0;
+  std::string joint;
   for (const Kinematics::Dependence& d : kinematics.dependence(link1, link2)) {
     const Twist& twist = posed.state().motion[static_cast<std::size_t>(d.motion)];
     const Eigen::Vector3d& x = answer.points[d.sign < 0 ? 0 : 1];
+    const double own = d.sign * answer.normal.dot(twist.linear + twist.angular.cross(x));
+    if (!joint.empty() && std::abs(own) <= std::abs(slope)) continue;
     const int coordinate = kinematics.motions()[static_cast<std::size_t>(d.motion)].coordinate;
-    slopes.emplace_back(d.sign * answer.normal.dot(twist.linear + twist.angular.cross(x)),
-                        kinematics.names()[static_cast<std::size_t>(coordinate)]);
+    slope = own;
+    joint = kinematics.names()[static_cast<std::size_t>(coordinate)];
   }
-  std::sort(slopes.begin(), slopes.end(),
-            [](const auto& a, const auto& b) { return std::abs(a.first) > std::abs(b.first); });
-  std::string text;
-  for (std::size_t i = 0; i < std::min<std::size_t>(2, slopes.size()); ++i) {
-    text += (i ? ", " : "") + signedFixed(slopes[i].first, 3) + " " + slopes[i].second;
-  }
-  return text;
+  return signedFixed(slope, 3) + " " + joint;
 }
 
 struct Row {
@@ -109,33 +108,31 @@ std::vector<Row> closest(const PosedRobot& posed, std::size_t count) {
 
 void printPairs(const PosedRobot& posed, const Kinematics& kinematics, const RobotGeometry& geometry,
                 const std::vector<Row>& rows) {
-  std::printf("\n%-26s %9s  %-24s %9s %9s %7s  %s\n", "", "STP-BV", "normal, from", "plain FCL", "its error",
-              "normal", "gradient: the two steepest");
-  std::printf("%-26s %9s  %-24s %9s %9s %7s  %s\n", "closest pairs", "[mm]", "first to second", "[mm]",
-              "[mm]", "[deg]", "[m/rad]");
+  heading("The closest pairs");
+  std::printf("%-26s %9s %9s %8s  %s\n", "", "STP-BV", "plain FCL", "normals", "steepest joint");
+  std::printf("%-26s %9s %9s %8s  %s\n", "", "[mm]", "[mm]", "[deg]", "[m/rad]");
   int wrong = 0;
+  double worst = 0;
   for (const Row& row : rows) {
     const Body& first = geometry.bodies[static_cast<std::size_t>(row.a)];
     const Body& second = geometry.bodies[static_cast<std::size_t>(row.b)];
     const fcl::CollisionObjectd& o1 = posed.object(static_cast<std::size_t>(row.a));
     const fcl::CollisionObjectd& o2 = posed.object(static_cast<std::size_t>(row.b));
     const PlainFcl plain = plainFcl(o1, o2);
-    const double error = plain.distance - hullDistance(o1, o2);
-    const bool off = std::abs(error) > kFclTolerance;
-    wrong += off;
-    const Eigen::Vector3d& n = row.answer.normal;
-    std::printf("%-26s %9.3f  (%s, %s, %s) %9.3f %9s %7.2f  %s\n", (first.name + " - " + second.name).c_str(),
-                row.answer.distance * kMm, signedFixed(n.x(), 3).c_str(), signedFixed(n.y(), 3).c_str(),
-                signedFixed(n.z(), 3).c_str(), plain.distance * kMm, off ? millimetres(error).c_str() : "-",
-                angle(n, plain.normal),
+    const double error = std::abs(plain.distance - hullDistance(o1, o2));
+    wrong += error > kFclTolerance;
+    worst = std::max(worst, error);
+    std::printf("%-26s %9.3f %9.3f %8.2f  %s\n", (first.name + " - " + second.name).c_str(),
+                row.answer.distance * kMm, plain.distance * kMm, angle(row.answer.normal, plain.normal),
                 steepest(posed, kinematics, first.link, second.link, row.answer).c_str());
   }
   std::printf(
-      "\nEach STP-BV lies outside its hull, by 10 mm at least and by its over-cover at most, so its distance "
-      "is\nsmaller than the hulls'. \"its error\" is against the certified distance of the same hulls; %d of "
-      "these\n%zu pairs are off by more than FCL's own tolerance of 1e-6 m. \"normal\" is the angle between "
-      "FCL's\nnormal and the smooth one.\n",
-      wrong, rows.size());
+      "\nEach STP-BV lies outside its hull, by 10 mm at least and by its over-cover at\n"
+      "most, so its distance is smaller than the hulls'. Of these %zu pairs FCL is off\n"
+      "by more than its own tolerance of 1e-6 m in %s, against the certified\n"
+      "distance of the same hulls. \"normals\" is the angle between FCL's normal and\n"
+      "the smooth one.\n",
+      rows.size(), wrong ? formatted("%d, by up to %.3f mm", wrong, worst * kMm).c_str() : "none");
 }
 
 // A random posture with the left limbs as the mirror image of the right
@@ -159,7 +156,7 @@ struct Faults {
   double worst = 0;
 };
 
-// Where the answers part: each limb against its own mirror image.
+// Where the answers part: each limb against its own mirror image. Moves the robot.
 void printMirrored(PosedRobot& posed, const Kinematics& kinematics, const RobotGeometry& geometry) {
   constexpr int kPostures = 2000;
   std::vector<std::pair<std::size_t, std::size_t>> pairs;
@@ -185,13 +182,31 @@ void printMirrored(PosedRobot& posed, const Kinematics& kinematics, const RobotG
       plain.wrong += error > kFclTolerance;
     }
   }
-  heading("Left against right in " + std::to_string(kPostures) + " mirrored postures");
-  const std::string bounds = smooth.worst > 0 ? detail::formatted("bounds at most %.0e m apart", smooth.worst)
+  const std::string bounds = smooth.worst > 0 ? formatted("bounds at most %.0e m apart", smooth.worst)
                                               : "both bounds the same number";
   std::printf(
-      "%d separated pairs, off by more than 1e-6 m: STP-BV %d (%s), plain FCL %d (by up to "
-      "%.3f mm)\n",
-      smooth.queries, smooth.wrong, bounds.c_str(), plain.wrong, plain.worst * kMm);
+      "Left limbs against right ones in %d mirrored postures: plain FCL is off by\n"
+      "more than 1e-6 m in %d of %d pairs, by up to %.3f mm, the STP-BVs in %d\n"
+      "(%s).\n\n",
+      kPostures, plain.wrong, smooth.queries, plain.worst * kMm, smooth.wrong, bounds.c_str());
+}
+
+// FCL's broadphase with this library's callback.
+void printClosest(PosedRobot& posed, const std::string& pose) {
+  SelfCheck check{&posed, {}};
+  const auto asked = std::chrono::steady_clock::now();
+  posed.manager().distance(&check, selfDistanceCallback);
+  const double took = seconds(asked);
+  const DistanceAnswer& found = check.data.result;
+  if (!found.object[0]) return;
+  const auto name = [](const fcl::CollisionObjectd* object) {
+    return static_cast<const Body*>(object->getUserData())->name;
+  };
+  std::printf(
+      "Posture '%s': %s and %s are closest,\n%.6f mm apart. FCL's broadphase found them with our callback, "
+      "in\n%.0f us, and asked for %zu of %zu pairs.\n\n",
+      pose.c_str(), name(found.object[0]).c_str(), name(found.object[1]).c_str(), found.distance * kMm,
+      took * 1e6, check.data.pairs, posed.pairs().size());
 }
 
 int run(const std::string& urdf, const std::string& srdfPath, const std::string& pose, std::size_t top) {
@@ -201,31 +216,17 @@ int run(const std::string& urdf, const std::string& srdfPath, const std::string&
   GeometryOptions options;
   options.cacheFolder.clear();  // the demo shows the conversion
   const RobotGeometry geometry = loadGeometry(*robot, options);
-  printVolumes(*robot, geometry, seconds(start));
+  const double built = seconds(start);
 
   const Kinematics kinematics(robot);
   const Eigen::VectorXd q = kinematics.configuration(srdf.state(pose));
   PosedRobot posed(kinematics, geometry, srdf);
-  posed.moveTo(q);
-
-  heading("Posture '" + pose + "'");
-  SelfCheck check{&posed, {}};
-  const auto asked = std::chrono::steady_clock::now();
-  posed.manager().distance(&check, selfDistanceCallback);
-  const double took = seconds(asked);
-  const DistanceAnswer& found = check.data.result;
-  if (found.object[0]) {
-    const auto name = [](const fcl::CollisionObjectd* object) {
-      return static_cast<const Body*>(object->getUserData())->name;
-    };
-    std::printf(
-        "DynamicAABBTreeCollisionManager with our callback: %s - %s, %.6f mm, %.0f us, %zu of %zu pairs "
-        "asked\n",
-        name(found.object[0]).c_str(), name(found.object[1]).c_str(), found.distance * kMm, took * 1e6,
-        check.data.pairs, posed.pairs().size());
-  }
-  printPairs(posed, kinematics, geometry, closest(posed, top));
+  heading("What was found");
   printMirrored(posed, kinematics, geometry);
+  posed.moveTo(q);
+  printClosest(posed, pose);
+  printVolumes(*robot, geometry, built);
+  printPairs(posed, kinematics, geometry, closest(posed, top));
   return 0;
 }
 
