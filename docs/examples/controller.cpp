@@ -11,6 +11,7 @@
 
 #include "docs/examples/chart.h"
 #include "docs/examples/named.h"
+#include "docs/examples/page_head.h"
 #include "docs/examples/reported.h"
 #include "fcl_stpbv/robot/srdf.h"
 #include "fcl_stpbv/robot/velocity_damper.h"
@@ -138,23 +139,23 @@ bool show(const std::vector<Tick>& smooth, const std::vector<Tick>& flat, std::o
     least = std::min(least, smooth[i].distance);
   }
   char found[200];
-  std::snprintf(found, sizeof found, "On STP-BVs the joints reach %.1f rad/s², on boxes with a margin %.0f",
-                peak, peakFlat);
-  page << "<!doctype html><meta charset='utf-8'><meta name='viewport' content='width=device-width'><title>"
-       << found
-       << "</title><style>body{font:15px sans-serif;max-width:860px;margin:1em auto;padding:0 1em;overflow-x:"
-          "auto}svg{width:100%;min-width:600px;margin:1em 0}</style><h2>"
-       << found
-       << "</h2><p>Two arms move the boxes they hold past each other, kept apart by a velocity damper. The "
+  std::snprintf(found, sizeof found,
+                "On STP-BVs the joints reach %.1f rad/s², on boxes with a margin %.0f rad/s²", peak,
+                peakFlat);
+  page << pageHead(found)
+       << "<p>Two arms move the boxes they hold past each other, kept apart by a velocity damper. The "
           "peaks are those after 0.5 s: before, the arms start from rest.</p>";
-  const auto picture = [&](const char* title, double Tick::*value, double unit, int low, int high) {
-    Curve boxes{"the boxes with a margin", "#c44e52", {}}, volumes{"their STP-BVs", "#1f4e96", {}};
+  const auto picture = [&](const char* title, double Tick::*value, double unit, int low, int high,
+                           Level level) {
+    Curve boxes{"the boxes with a margin", "var(--hulls)", {}}, volumes{"their STP-BVs", "var(--smooth)", {}};
     for (const Tick& tick : flat) boxes.values.push_back(tick.*value / unit);
     for (const Tick& tick : smooth) volumes.values.push_back(tick.*value / unit);
-    page << chart(title, kDuration, low, high, {boxes, volumes});
+    page << "\n<h2>" << title << "</h2>\n<div class='chart'>"
+         << chart(kDuration, low, high, {boxes, volumes}, level) << "</div>\n";
   };
-  picture("Largest joint acceleration (rad/s²)", &Tick::fastest, 1, -1, 3);
-  picture("Distance beyond the margins (mm)", &Tick::distance, 1e-3, 0, 3);
+  picture("Largest joint acceleration (rad/s²)", &Tick::fastest, 1, -1, 3, {});
+  picture("Distance beyond the margins (mm)", &Tick::distance, 1e-3, 0, 3, {"10 mm, to be kept", 10});
+  page << "</html>\n";
   std::printf("peak acceleration %.3g rad/s^2 on STP-BVs, %.3g on boxes; %.4f m kept\n", peak, peakFlat,
               least);
   if (!csv.flush() || !page.flush()) throw Error("controller.csv or controller.html could not be written");

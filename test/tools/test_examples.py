@@ -1,5 +1,7 @@
-"""The examples of the documentation beside another robot, and with folders that are not there: test_examples.py BIN_FOLDER PROJECT"""
+"""The examples of the documentation beside another robot, and with folders that are not there; their pages, and what the demo prints:
+test_examples.py BIN_FOLDER PROJECT"""
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -30,6 +32,40 @@ class Examples(unittest.TestCase):
         done = self.run_in(PROJECT / "data/hrp2_style", "controller", "/nowhere")
         self.assertEqual((done.returncode, done.stdout), (1, ""))
         self.assertIn("/nowhere/controller.csv: cannot be written", done.stderr)
+
+    def check_page(self, page):
+        """Its title is its only main heading, it has a dark scheme, and whatever is wide scrolls by itself."""
+        text = page.read_text()
+        found = re.findall(r"<h1>(.*?)</h1>", text)
+        self.assertEqual(re.findall(r"<title>(.*?)</title>", text), found)
+        self.assertEqual(len(found), 1)
+        self.assertLess(text.index("<h1"), text.index("<h2"))
+        self.assertIn("prefers-color-scheme: dark", text)
+        for wide in ("<svg", "<table"):
+            self.assertEqual(len(re.findall(wide, text)), len(re.findall(rf'<div class=["\']chart[^>]*>\s*{wide}', text)), wide)
+        return text, found[0]
+
+    def test_the_page_of_the_controller(self):
+        with tempfile.TemporaryDirectory() as folder:
+            self.assertEqual(self.run_in(PROJECT / "data/hrp2_style", "controller", folder).returncode, 0)
+            text, found = self.check_page(pathlib.Path(folder) / "controller.html")
+            self.assertEqual(found.count("rad/s²"), 2)
+            self.assertIn("10 mm, to be kept", text)
+
+    def test_the_page_of_the_planner_says_one_clearance(self):
+        with tempfile.TemporaryDirectory() as folder:
+            page = pathlib.Path(folder) / "page.html"
+            self.assertEqual(self.run_in(folder, "ompl", PROJECT / "data", "1", page).returncode, 0)
+            text, found = self.check_page(page)
+            self.assertIn("proven free", found)
+            self.assertEqual(re.findall(r"clearance is (\S+ mm)\.", text), re.findall(r"closest: (\S+ mm)", text))
+
+    def test_the_demo_fits_a_terminal_and_begins_with_what_it_found(self):
+        done = subprocess.run([PROGRAMS / "demo"], capture_output=True, text=True, timeout=100)
+        self.assertEqual(done.returncode, 0)
+        lines = done.stdout.splitlines()
+        self.assertLessEqual(max(map(len, lines)), 80)
+        self.assertIn("mirrored postures: plain FCL is off", lines[3])
 
 
 if __name__ == "__main__":

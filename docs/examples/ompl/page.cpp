@@ -3,6 +3,7 @@
 
 #include <cstdio>
 
+#include "docs/examples/page_head.h"
 #include "fcl_stpbv/report/outline.h"
 #include "fcl_stpbv/volume/convex_polygon.h"
 
@@ -16,59 +17,78 @@ namespace {
 constexpr double kScale = 400;  // pixels a metre
 constexpr int kWidth = 580, kHeight = 655;
 
+// How the bodies look; the colours are those of pageHead.
+constexpr const char* kStyle =
+    ".wide svg{min-width:1000px}.side svg{min-width:330px;max-width:580px}\n"
+    ".thing{fill:var(--thing);fill-opacity:.2;stroke:var(--thing)}\n"
+    ".start{fill:var(--start);fill-opacity:.3;stroke:var(--start)}\n"
+    ".between{fill:none;stroke:var(--smooth);stroke-opacity:.6}\n"
+    ".end{fill:var(--smooth);fill-opacity:.3;stroke:var(--smooth)}\n";
+
 std::string polygonOf(const fcl::CollisionGeometryd& geometry, const Eigen::Isometry3d& pose,
-                      const std::string& style) {
+                      const std::string& look) {
   std::vector<Vector2d> seen;
   for (const Eigen::Vector3d& p : report::outline(geometry, 2e-3, 60).vertices) {
     const Eigen::Vector3d w = pose * p;
     seen.push_back({200 + kScale * w.x(), kHeight - 20 - kScale * w.z()});
   }
   if (seen.size() < 3) return "";
-  std::string text = "<polygon points=\"";
+  std::string text = "<polygon class=\"" + look + "\" points=\"";
   for (const int corner : detail::convexPolygon(seen)) {
     const Vector2d& p = seen[static_cast<std::size_t>(corner)];
     char point[40];
     std::snprintf(point, sizeof point, "%.1f,%.1f ", p.x(), p.y());
     text += point;
   }
-  return text + "\" style=\"" + style + "\"/>\n";
+  return text + "\"/>\n";
 }
 
-std::string robotAt(const Scene& scene, const Eigen::VectorXd& q, const std::string& style) {
-  Kinematics::State state = scene.kinematics->makeState();
+/// All bodies; with `moved` only those that are elsewhere there.
+std::string robotAt(const Scene& scene, const Eigen::VectorXd& q, const std::string& look,
+                    const Eigen::VectorXd* moved = nullptr) {
+  Kinematics::State state = scene.kinematics->makeState(), other = scene.kinematics->makeState();
   scene.kinematics->forward(q, state);
+  scene.kinematics->forward(moved ? *moved : q, other);
   std::string text;
-  for (const Body& body : scene.smooth->bodies)
-    text += polygonOf(*body.geometry, state.link[static_cast<std::size_t>(body.link)] * body.pose, style);
+  for (const Body& body : scene.smooth->bodies) {
+    const auto link = static_cast<std::size_t>(body.link);
+    constexpr double kSame = 1e-9;  // of what did not move, above all rounding
+    if (moved && state.link[link].isApprox(other.link[link], kSame)) continue;
+    text += polygonOf(*body.geometry, state.link[link] * body.pose, look);
+  }
   return text;
+}
+
+std::string tableOf(const std::vector<std::vector<std::string>>& rows) {
+  std::string text = "<div class=\"chart\"><table>\n";
+  for (const auto& row : rows) {
+    const std::string cell = &row == rows.data() ? "th" : "td";
+    text += "<tr>";
+    for (const std::string& words : row) text += "<" + cell + ">" + words + "</" + cell + ">";
+    text += "</tr>\n";
+  }
+  return text + "</table></div>\n";
 }
 
 }  // namespace
 
-std::string pageOf(const Scene& scene, const report::TrajectoryReport& followed, const std::string& figures) {
+std::string pageOf(const Scene& scene, const report::TrajectoryReport& followed, const Findings& findings) {
   std::string picture = "<svg viewBox=\"0 0 " + std::to_string(kWidth) + " " + std::to_string(kHeight) +
-                        "\" style=\"max-width:" + std::to_string(kWidth) +
-                        "px\" role=\"img\" aria-label=\"the robot along its way\">\n";
+                        "\" role=\"img\" aria-label=\"the robot along its way\">\n";
   for (const Obstacle& obstacle : scene.obstacles)
-    picture += polygonOf(*obstacle.geometry, obstacle.pose, "fill:#d9a441;fill-opacity:0.35;stroke:#8a6410");
-  constexpr int kDrawn = 7;
+    picture += polygonOf(*obstacle.geometry, obstacle.pose, "thing");
   const double last = followed.trajectory.time.back();
-  for (int i = 0; i < kDrawn; ++i) {
-    picture += robotAt(scene, followed.at(last * i / (kDrawn - 1)),
-                       i == 0            ? "fill:#b0528f;fill-opacity:0.25;stroke:#7a2e60"
-                       : i == kDrawn - 1 ? "fill:#3b6ea8;fill-opacity:0.25;stroke:#24476e"
-                                         : "fill:none;stroke:#3b6ea8;stroke-opacity:0.35");
-  }
-  return "<!DOCTYPE html>\n<html lang=\"en\"><meta charset=\"utf-8\"><meta name=\"viewport\" "
-         "content=\"width=device-width\"><title>A planned way to the can</title>\n"
-         "<style>body{font:15px sans-serif;max-width:60em;margin:2em auto;padding:0 1em}svg{width:100%}"
-         "pre{white-space:pre-wrap}</style>\n<h1>A planned way to the can</h1>\n<pre>" +
-         figures +
-         "</pre>\n<h2>From the side</h2>\n<p>Magenta: the start. Blue: the end, with the hand around the "
-         "can. "
-         "Outlines: five times in between. Yellow: the fridge.</p>\n" +
-         picture + "</svg>\n<h2>Least distance of all pairs along the way</h2>\n" +
-         report::chartOf(followed, 0) + "</html>\n";
+  const Eigen::VectorXd start = followed.at(0), end = followed.at(last);
+  picture += robotAt(scene, start, "start", &end) + robotAt(scene, followed.at(0.5 * last), "between", &end) +
+             robotAt(scene, end, "end");
+  return pageHead(findings.verdict, kStyle) + "<p>" + findings.about + "</p>\n" + tableOf(findings.table) +
+         "<h2>From the side</h2>\n<p>Magenta: the start, where it differs from the end. Outlines: half of "
+         "the "
+         "way. Blue: the end, with the hand around the can. Yellow: the fridge.</p>\n"
+         "<div class=\"chart side\">" +
+         picture +
+         "</svg></div>\n<h2>Least distance of all pairs along the way</h2>\n<div class=\"chart wide\">" +
+         report::chartOf(followed, 0) + "</div></html>\n";
 }
 
 }  // namespace example

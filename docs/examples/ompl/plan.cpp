@@ -6,6 +6,7 @@
 #include <ompl/geometric/planners/rrt/RRTConnect.h>
 #include <ompl/util/RandomNumbers.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -13,6 +14,7 @@
 
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/io/atomic_write.h"
+#include "fcl_stpbv/report/text_table.h"
 #include "fcl_stpbv/report/trajectory.h"
 #include "page.h"
 #include "test/reference/arguments.h"
@@ -131,10 +133,6 @@ std::string line(const char* format, Values... values) {
   return text;
 }
 
-std::string lengthText(double metres) {
-  return metres < 1e-4 ? line("%.3g µm", 1e6 * metres) : line("%.1f mm", 1e3 * metres);
-}
-
 /// What several runs of one way of planning came to.
 struct Sum {
   int found = 0, colliding = 0;
@@ -152,13 +150,21 @@ struct Sum {
     sum.asked += part.asked;
     sum.seconds += part.seconds;
   }
-  std::string text(const char* name, int runs) const {
+  /// What it came to, under these heads.
+  static std::vector<std::string> heads() {
+    return {"", "planned", "s each", "motions, µs each", "states, µs each", "paths that collide in between"};
+  }
+  std::vector<std::string> row(const char* name, int runs) const {
     const auto each = [](const Count& c) {
       const double mean = 1e6 * c.seconds / static_cast<double>(c.asked);
-      return c.asked ? line("%ld, %.3g µs a check", c.asked, mean) : std::string("-");
+      return c.asked ? line("%ld at %.3g", c.asked, mean) : std::string("-");
     };
-    return line("%-8s %d of %d planned, %.3f s each; motions: %s; states: %s\n", name, found, runs,
-                seconds / std::max(1, found), each(motions).c_str(), each(states).c_str());
+    return {name,
+            line("%d of %d", found, runs),
+            line("%.3f", seconds / std::max(1, found)),
+            each(motions),
+            each(states),
+            line("%d", colliding)};
   }
 };
 
@@ -185,6 +191,13 @@ void planBySamples(const Scene& scene, MotionCheck& hulls, Sum& sum) {
   Sum::add(sum.states, states->count);
 }
 
+void print(const Findings& found) {
+  std::printf("%s\n%s\n", found.verdict.c_str(), found.about.c_str());
+  report::TextTable table("lrrrrr");
+  for (const auto& row : found.table) table.add(row);
+  std::printf("%s", table.text().c_str());
+}
+
 int run(const std::string& data, int runs, const std::string& page) {
   const Scene scene = loadScene(data);
   MotionCheck smooth(scene.kinematics, scene.smooth, scene.pairs, scene.obstacles);
@@ -194,17 +207,16 @@ int run(const std::string& data, int runs, const std::string& page) {
   CollisionConstraints rows(scene.kinematics, scene.smooth, scene.pairs, options);
   if (!smooth.isFree(scene.start) || !smooth.isFree(scene.goal))
     throw Error("the start or the goal collides");
-  std::string figures = line("%zu coordinates, %zu pairs\n", scene.coordinates.size(), scene.pairs.size());
   Sum proofs, samples;
   for (int i = 0; i < runs; ++i) {
     planByProofs(scene, smooth, rows, proofs);
     planBySamples(scene, hulls, samples);
   }
-  figures +=
-      proofs.text("proofs:", runs) + samples.text("samples:", runs) +
-      line("%d of the %d sampled paths collide in between, by proof\n", samples.colliding, samples.found);
+  Findings found{"No path to the can was found",
+                 {Sum::heads(), proofs.row("proofs", runs), samples.row("samples", runs)},
+                 line("%zu coordinates, %zu pairs.", scene.coordinates.size(), scene.pairs.size())};
   if (proofs.best.empty()) {
-    std::printf("%s", figures.c_str());
+    print(found);
     return 1;
   }
   Path path = divided(proofs.best, 0.5);
@@ -215,14 +227,16 @@ int run(const std::string& data, int runs, const std::string& page) {
   for (std::size_t i = 0; i < path.size(); ++i) way.time.push_back(static_cast<double>(i));
   const report::TrajectoryReport followed =
       report::follow(way, scene.kinematics, scene.smooth, scene.pairs, scene.obstacles, 0);
-  double clearance = std::numeric_limits<double>::infinity();
-  for (const Approach& approach : followed.closest) clearance = std::min(clearance, approach.distance);
+  double clearance = *std::min_element(followed.chartDistance.begin(), followed.chartDistance.end());
+  if (std::abs(clearance) < 1e-9) clearance = 0;  // as the chart says it
   const bool good = followed.verdict == MotionVerdict::free;
-  figures +=
-      line("path: %.3f rad, with gradients %.3f rad in %.3f s, clearance %s, %s\n", lengthOf(proofs.best),
-           lengthOf(path), seconds, lengthText(clearance).c_str(), good ? "proven free" : "NOT proven free");
-  std::printf("%s", figures.c_str());
-  if (!page.empty()) detail::writeOutput(page, pageOf(scene, followed, figures));
+  found.verdict =
+      line("A path of %.2f rad to the can, %s", lengthOf(path), good ? "proven free" : "NOT proven free");
+  found.about +=
+      line(" Gradients shortened the path from %.3f rad to %.3f rad in %.3f s. Its clearance is %.4g mm.",
+           lengthOf(proofs.best), lengthOf(path), seconds, 1e3 * clearance);
+  print(found);
+  if (!page.empty()) detail::writeOutput(page, pageOf(scene, followed, found));
   return good ? 0 : 1;
 }
 
