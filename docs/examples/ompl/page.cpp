@@ -19,7 +19,7 @@ constexpr int kWidth = 580, kHeight = 655;
 
 // How the bodies look; the colours are those of pageHead.
 constexpr const char* kStyle =
-    ".wide svg{min-width:1000px}.side svg{min-width:330px;max-width:580px}\n"
+    ".wide svg{min-width:800px}.side svg{min-width:330px;max-width:580px}\n"
     ".thing{fill:var(--thing);fill-opacity:.2;stroke:var(--thing)}\n"
     ".start{fill:var(--start);fill-opacity:.3;stroke:var(--start)}\n"
     ".between{fill:none;stroke:var(--smooth);stroke-opacity:.6}\n"
