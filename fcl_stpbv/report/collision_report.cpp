@@ -13,6 +13,7 @@
 
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/numbers.h"
+#include "fcl_stpbv/report/along_trajectory.h"
 #include "fcl_stpbv/report/asked_postures.h"
 #include "fcl_stpbv/report/kept_list.h"
 #include "fcl_stpbv/report/pair_cause.h"
@@ -58,48 +59,6 @@ bool isChecked(const PairEntry& entry, const CollisionReport& report, const Skip
   if (entry.obstacle || !srdf) return entry.obstacle || checkedWithoutSrdf(entry.reason);
   const auto& links = report.robot->links;
   return srdf->of(links[at(entry.link1)].name, links[at(entry.link2)].name).empty();
-}
-
-// Follows the bodies of the checked pairs along the way points. Returns for each entry of the list the index
-// of its first pair of bodies, and at the end the number of all pairs.
-std::vector<std::size_t> followTrajectory(const ReportRequest& request, const Trajectory& trajectory,
-                                          const SkipReasons* srdf, CollisionReport& report) {
-  std::vector<CheckedPair> pairs;
-  std::vector<std::size_t> first;
-  for (const PairEntry& entry : report.list) {
-    first.push_back(pairs.size());
-    if (!isChecked(entry, report, srdf)) continue;
-    const std::vector<CheckedPair> bodies = bodiesOf(*report.geometry, entry);
-    pairs.insert(pairs.end(), bodies.begin(), bodies.end());
-    report.trajectoryPairs.resize(pairs.size(),
-                                  {report.robot->links[at(entry.link1)].name, nameOfSecond(entry, report)});
-  }
-  first.push_back(pairs.size());
-  requirePairs(pairs.size(), *report.robot, countsOf(report.list));
-  report.trajectory =
-      follow(trajectory, report.kinematics, report.geometry, pairs, report.obstacles, request.search.margin);
-  report.trajectory->path = request.trajectory;
-  return first;
-}
-
-// Sets the configuration in which the trajectory's pairs of bodies from `first` to `last` are closest. The
-// closest approach is found only to a precision, and a contact may be less deep than that.
-void placeOnTrajectory(const TrajectoryReport& trajectory, std::size_t first, std::size_t last,
-                       PairReport& pair) {
-  if (first == last) return;
-  pair.stopsTrajectory = trajectory.verdict != MotionVerdict::free && at(trajectory.stop.pair) >= first &&
-                         at(trajectory.stop.pair) < last;
-  const bool touches = pair.stopsTrajectory && trajectory.verdict == MotionVerdict::contact;
-  const auto from = static_cast<std::ptrdiff_t>(first), to = static_cast<std::ptrdiff_t>(last);
-  pair.freeAlong = std::all_of(trajectory.free.begin() + from, trajectory.free.begin() + to,
-                               [](bool free) { return free; });
-  const auto begin = trajectory.closest.begin();
-  const auto nearest = std::min_element(
-      begin + from, begin + to, [](const Approach& a, const Approach& b) { return a.distance < b.distance; });
-  pair.time = touches && !(nearest->distance < trajectory.stop.answer.distance) ? trajectory.stop.until
-                                                                                : nearest->time;
-  pair.configuration = trajectory.at(pair.time);
-  pair.colliding = touches;
 }
 
 // What the search and the SRDF say about a pair.
@@ -161,23 +120,16 @@ void examine(const ReportRequest& request, const PairListOptions& search, const 
   report.list = report.list.empty()
                     ? keptPairList(report.kinematics, report.geometry, srdf, search, cache)
                     : pairListAgain(report.kinematics, report.geometry, srdf, search, report.list, changed);
-  report.pairs.clear();
-  report.trajectory.reset();
-  report.trajectoryPairs.clear();
   const SkipReasons reasons(srdf);
-  const SkipReasons* toSkip = srdf ? &reasons : nullptr;
-  std::vector<std::size_t> firstBodies;
-  if (!request.trajectory.empty())
-    firstBodies = followTrajectory(request, postures.trajectory, toSkip, report);
-  for (std::size_t i = 0; i < report.list.size(); ++i) {
-    const PairEntry& entry = report.list[i];
-    PairReport pair = said(entry, report, toSkip);
-    pair.configuration = postures.asked.value_or(entry.closest);
-    if (report.trajectory) {
-      pair.configuration = postures.trajectory.points.front();
-      placeOnTrajectory(*report.trajectory, firstBodies[i], firstBodies[i + 1], pair);
-    }
-    const std::vector<CheckedPair> bodies = bodiesOf(*report.geometry, entry);
+  report.pairs.clear();
+  for (const PairEntry& entry : report.list)
+    report.pairs.push_back(said(entry, report, srdf ? &reasons : nullptr));
+  if (request.trajectory.empty())
+    for (PairReport& pair : report.pairs) pair.configuration = postures.asked.value_or(pair.closest);
+  else
+    followPairs(postures.trajectory, request.trajectory, report);
+  for (PairReport& pair : report.pairs) {
+    const std::vector<CheckedPair> bodies = bodiesOf(*report.geometry, pair.links);
     measurePair(report, bodies, pair);
     if (pair.answer.status == DistanceStatus::invalid)  // without an answer the pair is not known to be clear
       throw Error(report.robot->path + ": the distance of " + pair.link1 + " and " + pair.link2 +
@@ -190,7 +142,6 @@ void examine(const ReportRequest& request, const PairListOptions& search, const 
     } else {
       explain(bodies, search.margin, causes, pair);
     }
-    report.pairs.push_back(std::move(pair));
   }
 }
 

@@ -1,0 +1,58 @@
+#include "fcl_stpbv/report/along_trajectory.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "fcl_stpbv/numbers.h"
+
+namespace fcl_stpbv::report {
+
+using namespace detail;
+
+namespace {
+
+// Where the bodies first to last of the trajectory's are closest on it. The closest approach is found to a
+// precision; a contact may be less deep than that.
+void placeOnTrajectory(const TrajectoryReport& trajectory, std::size_t first, std::size_t last,
+                       PairReport& pair) {
+  if (first == last) return;
+  pair.stopsTrajectory = trajectory.verdict != MotionVerdict::free && at(trajectory.stop.pair) >= first &&
+                         at(trajectory.stop.pair) < last;
+  const bool touches = pair.stopsTrajectory && trajectory.verdict == MotionVerdict::contact;
+  const auto from = static_cast<std::ptrdiff_t>(first), to = static_cast<std::ptrdiff_t>(last);
+  pair.freeAlong = std::all_of(trajectory.free.begin() + from, trajectory.free.begin() + to,
+                               [](bool free) { return free; });
+  const auto begin = trajectory.closest.begin();
+  const auto nearest = std::min_element(
+      begin + from, begin + to, [](const Approach& a, const Approach& b) { return a.distance < b.distance; });
+  pair.time = touches && !(nearest->distance < trajectory.stop.answer.distance) ? trajectory.stop.until
+                                                                                : nearest->time;
+  pair.configuration = trajectory.at(pair.time);
+  pair.colliding = touches;
+}
+
+}  // namespace
+
+void followPairs(const Trajectory& trajectory, const std::string& path, CollisionReport& report) {
+  std::vector<CheckedPair> bodies;
+  std::vector<std::size_t> first;  // of each pair's bodies
+  report.trajectoryPairs.clear();
+  for (const PairReport& pair : report.pairs) {
+    first.push_back(bodies.size());
+    if (!pair.checked) continue;
+    const std::vector<CheckedPair> own = bodiesOf(*report.geometry, pair.links);
+    bodies.insert(bodies.end(), own.begin(), own.end());
+    report.trajectoryPairs.resize(bodies.size(), {pair.link1, pair.link2});
+  }
+  first.push_back(bodies.size());
+  requirePairs(bodies.size(), *report.robot, countsOf(report.list));
+  report.trajectory =
+      follow(trajectory, report.kinematics, report.geometry, bodies, report.obstacles, report.margin);
+  report.trajectory->path = path;
+  for (std::size_t i = 0; i < report.pairs.size(); ++i) {
+    report.pairs[i].configuration = trajectory.points.front();
+    placeOnTrajectory(*report.trajectory, first[i], first[i + 1], report.pairs[i]);
+  }
+}
+
+}  // namespace fcl_stpbv::report
