@@ -1,6 +1,7 @@
 #include "fcl_stpbv/report/along_trajectory.h"
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 #include "fcl_stpbv/numbers.h"
@@ -31,6 +32,17 @@ void placeOnTrajectory(const TrajectoryReport& trajectory, std::size_t first, st
   pair.colliding = touches;
 }
 
+// Whether the closest approach shows it: proven for the whole way, and above the margin by more than its
+// precision.
+bool staysFarther(const CollisionReport& report, const PairReport& pair) {
+  const TrajectoryReport& t = *report.trajectory;
+  const bool isFarther = pair.answer.distance - TrajectoryReport::kPrecision > report.margin;
+  return isFarther && t.closestProven && t.followedUntil >= t.trajectory.time.back() &&
+         std::none_of(t.undecided.begin(), t.undecided.end(), [&](const TrajectoryStop& stop) {
+           return report.trajectoryPairs[at(stop.pair)] == std::make_pair(pair.link1, pair.link2);
+         });
+}
+
 }  // namespace
 
 void followPairs(const Trajectory& trajectory, const std::string& path, CollisionReport& report) {
@@ -53,6 +65,18 @@ void followPairs(const Trajectory& trajectory, const std::string& path, Collisio
     report.pairs[i].configuration = trajectory.points.front();
     placeOnTrajectory(*report.trajectory, first[i], first[i + 1], report.pairs[i]);
   }
+}
+
+const char* verdictText(MotionVerdict verdict) {
+  const char* const texts[] = {"free", "contact", "undecided"};
+  return texts[static_cast<int>(verdict)];
+}
+
+std::string verdictAlong(const CollisionReport& report, const PairReport& pair) {
+  if (!report.trajectory || !pair.checked) return "";
+  if (pair.colliding) return verdictText(MotionVerdict::contact);
+  return verdictText(pair.freeAlong || staysFarther(report, pair) ? MotionVerdict::free
+                                                                  : MotionVerdict::undecided);
 }
 
 }  // namespace fcl_stpbv::report

@@ -12,4 +12,9 @@ namespace fcl_stpbv::report {
 /// they are closest, others at the first way point. @throws Error where no pair is checked.
 void followPairs(const Trajectory& trajectory, const std::string& path, CollisionReport& report);
 
+/// "free" where a proof or the closest approach shows that the measured `pair` stays clear all the way,
+/// "contact" where it comes within the margin, else "undecided"; "" where it was not followed.
+std::string verdictAlong(const CollisionReport& report, const PairReport& pair);
+const char* verdictText(MotionVerdict verdict);
+
 }  // namespace fcl_stpbv::report

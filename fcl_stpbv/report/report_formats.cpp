@@ -7,6 +7,7 @@
 
 #include "fcl_stpbv/formatted.h"
 #include "fcl_stpbv/io/text_scanner.h"
+#include "fcl_stpbv/report/along_trajectory.h"
 
 namespace fcl_stpbv::report {
 
@@ -47,8 +48,8 @@ std::string toCsv(const CollisionReport& report) {
       "link1,link2,reason,srdf_reason,checked,cause,distance,mesh_distance,hull_distance,over_cover1,over_"
       "cover2,min_distance,"
       "point1_x,point1_y,point1_z,point2_x,point2_y,point2_z,normal_x,normal_y,normal_z";
-  text += report.trajectory ? ",time\n" : "\n";
-  const std::string rest(report.trajectory ? 17 : 16, ',');
+  text += report.trajectory ? ",time,verdict\n" : "\n";
+  const std::string rest(report.trajectory ? 18 : 16, ',');
   if (report.trajectory)
     text += ",," + cellOf("trajectory: " + trajectoryVerdict(report)) + ",,0" + rest + "\n";
   for (const std::string& shape : report.skipped)
@@ -61,7 +62,9 @@ std::string toCsv(const CollisionReport& report) {
       text += "," + (std::isfinite(value) ? toDecimal(value) : std::string());
     for (const Eigen::Vector3d& v : {pair.answer.points[0], pair.answer.points[1], pair.answer.normal})
       for (int i = 0; i < 3; ++i) text += "," + toDecimal(v[i]);
-    if (report.trajectory) text += "," + (std::isfinite(pair.time) ? toDecimal(pair.time) : std::string());
+    if (report.trajectory)
+      text += "," + (std::isfinite(pair.time) ? toDecimal(pair.time) : std::string()) + "," +
+              verdictAlong(report, pair);
     text += "\n";
   }
   return text;

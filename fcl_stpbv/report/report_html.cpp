@@ -158,20 +158,7 @@ void shorten(nlohmann::json& value) {
   }
 }
 
-// Whether the trajectory leaves open if the pair meets, because neither a proof of its own nor its closest
-// approach decides.
-bool isUndecided(const CollisionReport& report, const PairReport& pair) {
-  if (!report.trajectory || !pair.checked || pair.freeAlong) return false;
-  const TrajectoryReport& t = *report.trajectory;
-  const bool isFarther = pair.answer.distance - TrajectoryReport::kPrecision > report.margin;
-  return !(t.closestProven && isFarther) || t.followedUntil < t.trajectory.time.back() ||
-         std::any_of(t.undecided.begin(), t.undecided.end(), [&](const TrajectoryStop& stop) {
-           return report.trajectoryPairs[static_cast<std::size_t>(stop.pair)] ==
-                  std::make_pair(pair.link1, pair.link2);
-         });
-}
-
-// Adds what a task asks for: targets with their frames, and contacts.
+// What a task asks for: targets with their frames, and contacts.
 void addMarks(const TaskMarks& marks, nlohmann::json& data) {
   data["targets"] = data["contacts"] = nlohmann::json::array();
   for (const TargetMark& mark : marks.targets)
@@ -213,7 +200,6 @@ nlohmann::json dataOf(const CollisionReport& report, const std::string& title,
     item["posture"] = indexOf(pair.configuration);
     item["cover"] = pair.overCover1 + pair.overCover2;
     item["colliding"] = pair.colliding;
-    item["undecided"] = isUndecided(report, pair);
     if (std::isfinite(pair.time)) {
       const std::vector<double>& time = report.trajectory->trajectory.time;
       item["time_text"] = report.trajectory->timeText(pair.time);

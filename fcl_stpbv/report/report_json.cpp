@@ -2,6 +2,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "fcl_stpbv/report/along_trajectory.h"
 #include "fcl_stpbv/report/report_formats.h"
 
 namespace fcl_stpbv::report {
@@ -17,6 +18,10 @@ nlohmann::json joints(const Eigen::VectorXd& q, const Kinematics& kinematics) {
 
 nlohmann::json orNull(double value) {
   return std::isfinite(value) ? nlohmann::json(value) : nlohmann::json();
+}
+
+nlohmann::json orNull(const std::string& text) {
+  return text.empty() ? nlohmann::json() : nlohmann::json(text);
 }
 
 const char* statusName(DistanceStatus status) {
@@ -35,11 +40,10 @@ const char* statusName(DistanceStatus status) {
 nlohmann::json trajectoryJson(const CollisionReport& report) {
   if (!report.trajectory) return {};
   const TrajectoryReport& t = *report.trajectory;
-  const char* const verdicts[] = {"free", "contact", "undecided"};
   nlohmann::json json{{"file", t.path},
                       {"way_points", t.trajectory.points.size()},
                       {"timed", t.trajectory.timed},
-                      {"verdict", verdicts[static_cast<int>(t.verdict)]},
+                      {"verdict", verdictText(t.verdict)},
                       {"free_until", t.undecided.empty() ? t.stop.from : t.undecided.front().from},
                       {"followed_until", t.followedUntil},
                       {"closest_proven", t.closestProven},
@@ -130,6 +134,7 @@ nlohmann::json pairJson(const CollisionReport& report, const PairReport& pair) {
           {"cause", pair.cause},
           {"lipschitz", orNull(pair.lipschitz)},
           {"time", orNull(pair.time)},
+          {"verdict", orNull(verdictAlong(report, pair))},
           {"min_distance", orNull(pair.minDistance)},
           {"closest", joints(pair.closest, *report.kinematics)},
           {"probability_bound", pair.probabilityBound},
@@ -142,7 +147,7 @@ nlohmann::json pairJson(const CollisionReport& report, const PairReport& pair) {
 std::string toJson(const CollisionReport& report) {
   nlohmann::json json;
   json["robot"] = report.robot->name;
-  json["pose"] = report.pose.empty() ? nlohmann::json() : nlohmann::json(report.pose);
+  json["pose"] = orNull(report.pose);
   json["neutral"] = {{"colliding", report.neutral.colliding}};
   if (report.neutral.better.size() > 0)
     json["neutral"].update({{"better", joints(report.neutral.better, *report.kinematics)},

@@ -131,7 +131,10 @@ class Report(unittest.TestCase):
         srdf = self.put("table.srdf", '<robot name="t"><disable_collisions link1="table" link2="still"/></robot>')
         path = self.put("roll.csv", "time,x,z\n0,-0.5,+0.2\n1,-0.5,0\n2,0.8,0\n")  # with a plus sign, as printf writes it
         arguments = ["--primitives", "flat", "--samples", "20", "--srdf", srdf, "--trajectory", path]
-        report = json.loads(self.run_tool(table, *arguments, "--format", "json").stdout)["trajectory"]
+        whole = json.loads(self.run_tool(table, *arguments, "--format", "json").stdout)
+        verdicts = {(pair["link1"], pair["link2"]): pair["verdict"] for pair in whole["pairs"]}
+        self.assertEqual(verdicts, {("table", "ball"): "undecided", ("still", "ball"): "contact", ("table", "still"): None})
+        report = whole["trajectory"]
         self.assertEqual((report["verdict"], report["contact"]["link1"], report["contact"]["link2"]), ("contact", "still", "ball"))
         self.assertAlmostEqual(report["contact"]["time"], 1 + (1.3 - math.sqrt(0.08)) / 1.3, delta=1e-6)
         self.assertEqual([(u["link1"], u["link2"]) for u in report["undecided"]], [("table", "ball")])
@@ -140,8 +143,10 @@ class Report(unittest.TestCase):
         self.assertIn("not decided: table - ball", self.run_tool(table, *arguments).stdout)
         rows = self.run_tool(table, *arguments, "--format", "csv").stdout.splitlines()
         self.assertRegex(rows[1], r"^,,trajectory: CONTACT of still - ball at 1\.78\d+ s,")
-        self.assertEqual({row.count(",") for row in rows}, {21})
-        self.assertRegex(next(row for row in rows if row.startswith("still,ball")), r",1\.99\d*$|,2$")  # its time
+        self.assertEqual({row.count(",") for row in rows}, {22})
+        self.assertRegex(next(row for row in rows if row.startswith("still,ball")), r",(1\.99\d*|2),contact$")  # its time and verdict
+        self.assertEqual({tuple(row[key] for key in ("link1", "link2", "verdict")) for row in csv.DictReader(rows) if row["link1"]},
+                         {(*pair, verdict or "") for pair, verdict in verdicts.items()})
         alone = self.put("alone.csv", "time,x,z\n0,-0.5,0.2\n1,-0.5,0\n2,-0.4,0\n")
         done = self.run_tool(table, "--primitives", "flat", "--srdf", srdf, "--trajectory", alone)
         self.assertEqual(done.returncode, 1)
@@ -175,11 +180,12 @@ class Report(unittest.TestCase):
         for z, collides in ((0, False), (-0.05, True)):
             self.put("spin.csv", f"time,z,spin\n0,0.2,0\n1,{z},0\n2,{z},314159.3\n")
             page = page_data(self.run_tool(*arguments, "--format", "html").stdout)
-            open_pairs = [{p["link1"], p["link2"]} for p in page["pairs"] if p["undecided"] and not p["colliding"]]
-            self.assertEqual([{p["link1"], p["link2"]} for p in page["pairs"] if p["colliding"]], [{"table", "ball"}] * collides)
+            open_pairs = [{p["link1"], p["link2"]} for p in page["pairs"] if p["verdict"] == "undecided"]
+            for told in (lambda p: p["colliding"], lambda p: p["verdict"] == "contact"):
+                self.assertEqual([{p["link1"], p["link2"]} for p in page["pairs"] if told(p)], [{"table", "ball"}] * collides)
             self.assertEqual(len(open_pairs), 2 - collides, page["pairs"])
             self.assertIn({"arm", "post"}, open_pairs)
-            self.assertEqual(sum(p["checked"] and not p["undecided"] and not p["colliding"] for p in page["pairs"]), 3)
+            self.assertEqual(sum(p["verdict"] == "free" for p in page["pairs"]), 3)
 
     def test_a_trajectory_that_keeps_clear_is_proven_free_and_drawn(self):
         text = "slide\n0\n0.5\n0.9\n0.2\n"

@@ -18,7 +18,7 @@ const PADDING = 12;  // of a cell, both sides (pixels)
 const STATES = {
   checked: ['checked', p => p.checked],
   colliding: ['', p => p.checked && p.colliding],  // named as the report does
-  undecided: ['not decided', p => p.undecided],
+  undecided: ['not decided', p => p.verdict === 'undecided'],
   skipped: ['not checked', p => !p.checked],
   contradicts: ['contradicts the SRDF', p => p.contradicts_srdf],
   kinked: ['gradient may jump', p => p.checked && !p.continuous]
@@ -27,7 +27,7 @@ const STATES = {
 // What is said of a pair, and how it looks.
 function stateOf(pair, report) {
   if (!pair.checked) return ['not checked', ''];
-  return pair.colliding ? [hitWord(report), 'hit'] : pair.undecided ? ['not decided', 'warn'] : ['clear', ''];
+  return pair.colliding ? [hitWord(report), 'hit'] : pair.verdict === 'undecided' ? ['not decided', 'warn'] : ['clear', ''];
 }
 
 function cellText({ key, text }, pair) {
@@ -105,7 +105,7 @@ class PairTable {
   }
 
   makeRow(pair, i) {
-    const row = make('tr', pair.checked ? pair.colliding ? 'hit' : pair.undecided ? 'undecided' : '' : 'off');
+    const row = make('tr', pair.checked ? pair.colliding ? 'hit' : pair.verdict === 'undecided' ? 'undecided' : '' : 'off');
     row.dataset.pair = i;
     for (const column of this.columns) {
       const { key, text } = column;
