@@ -8,6 +8,7 @@
 #include "fcl_stpbv/io/text_scanner.h"
 #include "fcl_stpbv/posture/task.h"
 #include "fcl_stpbv/robot/json_text.h"
+#include "fcl_stpbv/robot/near_name.h"
 
 namespace fcl_stpbv {
 namespace {
@@ -33,7 +34,9 @@ class Field {
     if (!value_.is_object()) refuse("an object with the keys " + list);
     for (const auto& [key, unused] : value_.items()) {
       (void)unused;
-      if (!keys.count(key)) throw Error(where_ + ": unknown key '" + key + "'; known are " + list);
+      if (!keys.count(key))
+        throw Error(where_ + ": unknown key '" + key + "'; known are " + list +
+                    didYouMean(key, {keys.begin(), keys.end()}));
     }
     return *this;
   }

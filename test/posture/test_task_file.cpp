@@ -33,6 +33,9 @@ TEST_CASE("a task file's mistakes are named with their key") {
   refused("[]", "task.json", "expected an object");
   refused("{}", "placements", "missing");
   refused(R"({"placements": [], "colisions": {}})", "colisions", "known are base, collisions");
+  refused(R"({"placement": []})", "task.json", "unknown key 'placement'");
+  refused(R"({"placement": []})", "task.json", "; did you mean 'placements'?");
+  refused(R"({"placements": [{"link": "BODY", "traget": {}}]})", "placements[0]", "; did you mean 'target'?");
   refused(R"({"placements": 3})", "placements", "expected a list");
   refused(R"({"placements": [{"link": "NO", "target": {}}]})", "placements[0].link", "no link 'NO'");
   refused(R"({"placements": [{"link": "BODY"}]})", "placements[0]", "'target' is missing");
