@@ -16,7 +16,8 @@ namespace {
 
 using tinyxml2::XMLElement;
 
-/// An element that counts, its attributes, and those that several tools write and none here uses.
+/// An element that counts, its attributes that move or shape a body, and others that several tools write,
+/// which cannot stand for one of the former.
 struct Known {
   std::string_view element;
   Words attributes, unused = {};
@@ -34,13 +35,15 @@ class Elements {
   const Known *begin_, *end_;
 };
 
-constexpr Known kInJoint[] = {
-    {"origin", {"xyz", "rpy"}},
-    {"parent", {"link"}},
-    {"child", {"link"}},
-    {"axis", {"xyz"}},
-    {"limit", {"lower", "upper", "effort", "velocity"}, {"acceleration", "deceleration", "jerk"}},
-    {"mimic", {"joint", "multiplier", "offset"}}};
+constexpr Known kInJoint[] = {{"origin", {"xyz", "rpy"}},
+                              {"parent", {"link"}},
+                              {"child", {"link"}},
+                              {"axis", {"xyz"}},
+                              {"limit",
+                               {"lower", "upper"},
+                               {"effort", "velocity", "acceleration", "deceleration", "jerk", "k_velocity",
+                                "k_position", "damping", "friction"}},
+                              {"mimic", {"joint", "multiplier", "offset"}}};
 constexpr Known kInInertial[] = {
     {"origin", {"xyz", "rpy"}}, {"mass", {"value"}}, {"inertia", {}}};  // what inertia says is not used
 constexpr Known kInShape[] = {{"origin", {"xyz", "rpy"}}, {"geometry", {"name"}}};
@@ -74,7 +77,8 @@ void checkAttributes(const XMLElement& element, const Known& known) {
   for (const tinyxml2::XMLAttribute* a = element.FirstAttribute(); a; a = a->Next()) {
     if (!holds(known.attributes, a->Name()) && !holds(known.unused, a->Name()) && !ofOtherTools(a->Name()))
       throw Error("<" + std::string(known.element) + "> has an attribute '" + a->Name() +
-                  "' that URDF does not know there; it knows " + listed(known.attributes));
+                  "' that URDF does not know there; it knows " + listed(known.attributes) +
+                  didYouMean(a->Name(), {known.attributes.begin(), known.attributes.end()}));
   }
 }
 
@@ -98,8 +102,8 @@ void checkUnknown(const XMLElement& element, const Elements& list) {
   }
 }
 
-// How many of the children count.
-int checkChildren(const XMLElement& parent, const Elements& list) {
+// How many of the children count. The attributes of one called `free` have no effect.
+int checkChildren(const XMLElement& parent, const Elements& list, std::string_view free = "") {
   int count = 0;
   std::set<std::string_view> seen;
   for (const XMLElement* e = parent.FirstChildElement(); e; e = e->NextSiblingElement()) {
@@ -112,7 +116,7 @@ int checkChildren(const XMLElement& parent, const Elements& list) {
       continue;
     }
     if (!seen.insert(name).second) throw Error("has two <" + std::string(name) + ">; remove one");
-    checkAttributes(*e, *known);
+    if (name != free) checkAttributes(*e, *known);
     ++count;
   }
   return count;
@@ -225,7 +229,8 @@ void checkJointWords(const XMLElement& joint) {
   const char* type = joint.Attribute("type");
   if (!type) throw Error("has no type; URDF knows " + listed(types));
   if (!holds(types, type)) throw Error("is of type '" + std::string(type) + "'; URDF knows " + listed(types));
-  checkChildren(joint, kInJoint);
+  const bool hasRange = holds({"revolute", "prismatic"}, type);
+  checkChildren(joint, kInJoint, hasRange ? "" : "limit");
 }
 
 const XMLElement* inertialOf(const XMLElement& link) {

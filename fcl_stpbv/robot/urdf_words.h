@@ -12,7 +12,7 @@ namespace fcl_stpbv::detail {
 
 /// Checks a `<collision>` or `<visual>`: one geometry of one shape, at most one origin, and no attribute or
 /// element that may be a misspelt one. Names with a prefix (`drake:...`) are other tools' own, and so is an
-/// attribute of an element that has all of URDF's.
+/// attribute of an element that has all of URDF's that move or shape a body.
 /// @throws Error saying what is wrong, without the element's place.
 void checkShapeWords(const tinyxml2::XMLElement& shape);
 

@@ -171,10 +171,9 @@ TEST_CASE("an origin that moves nothing is let pass wherever it stands") {
 }
 
 TEST_CASE("another tool's attribute is let pass where none of URDF's is missing") {
-  const auto jointWith = [](const std::string& limit) {
-    return robot(link("a") + link("b") +
-                 "<joint name=\"j\" type=\"revolute\"><parent link=\"a\"/><child link=\"b\"/><limit " +
-                 limit + "/></joint>");
+  const auto jointWith = [](const std::string& limit, const std::string& type = "revolute") {
+    return robot(link("a") + link("b") + "<joint name=\"j\" type=\"" + type +
+                 "\"><parent link=\"a\"/><child link=\"b\"/><limit " + limit + "/></joint>");
   };
   const RobotModel model =
       parseUrdf(jointWith("lower=\"-1\" upper=\"2\" effort=\"3\" velocity=\"4\" current=\"5\""), "a.urdf");
@@ -183,6 +182,13 @@ TEST_CASE("another tool's attribute is let pass where none of URDF's is missing"
   CHECK_THAT(refused(jointWith("lowr=\"-1\" upper=\"2\" effort=\"3\" velocity=\"4\"")), Contains("'lowr'"));
   CHECK_THAT(refused(jointWith("upper=\"2\" effort=\"3\" velocity=\"4\" current=\"5\"")),
              Contains("'current'"));
+  // What cannot be a range, and what is beside a whole one or on a joint that has none, has no effect.
+  CHECK(parseUrdf(jointWith("upper=\"2\" k_velocity=\"3\""), "a.urdf").joints[0].upper == 2);
+  CHECK(parseUrdf(jointWith("lower=\"-1\" upper=\"2\" velocty=\"3\""), "a.urdf").joints[0].lower == -1);
+  CHECK(parseUrdf(jointWith("effort=\"1\" gear=\"3\"", "continuous"), "a.urdf").joints.size() == 1);
+  CHECK_THAT(refused(jointWith("lower=\"-1\" uper=\"2\" velocity=\"4\"")), Contains("did you mean 'upper'?"));
+  CHECK_THAT(refused(jointWith("min=\"-1\" max=\"2\" k_velocity=\"4\"", "prismatic")), Contains("'min'"));
+  CHECK_THAT(refused(jointWith("soft_lower_limit=\"-1\" velocity=\"4\"")), Contains("'soft_lower_limit'"));
   CHECK(shapesIn("<collision><geometry><box size=\"1 1 1\" colour=\"red\"/></geometry></collision>") == 1);
   CHECK_THAT(refused(robot(link("a", "<mesh filename=\"m\" convex=\"yes\"/>"))), Contains("'convex'"));
 }
