@@ -25,11 +25,11 @@ struct BodyOptions {
   Names flat = std::vector<std::string>{};  ///< links whose meshes stay convex polyhedra, and "obstacles"
 
   /// @throws Error naming the argument.
+  GeometryOptions ofAll() const;  ///< r and R, without links and flat
   GeometryOptions ofRobot(bool obstacles) const;
   GeometryOptions ofObstacles() const;
 
  private:
-  GeometryOptions ofAll() const;
   std::vector<std::string> flatNames() const;
 };
 

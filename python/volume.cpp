@@ -5,11 +5,13 @@
 #include <optional>
 #include <sstream>
 
+#include "bodies.h"
 #include "fcl_stpbv/distance/distance.h"
 #include "fcl_stpbv/distance/shape_distance.h"
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/formatted.h"
 #include "fcl_stpbv/io/volume_files.h"
+#include "fcl_stpbv/robot/fitted_radii.h"
 #include "fcl_stpbv/robot/mesh_file.h"
 #include "fcl_stpbv/volume/measure.h"
 #include "fcl_stpbv/volume/radii_advice.h"
@@ -99,13 +101,18 @@ void addStpBv(py::module_& module) {
   py::class_<StpBv, std::shared_ptr<StpBv>>(module, "StpBv", "A volume; immutable. Its own frame.")
       .def_static(
           "build",
-          [](const Floats<PointArray>& points, double r, double R) {
+          [](const Floats<PointArray>& points, const BodyOptions::Length& r,
+             const std::optional<BodyOptions::Length>& R) {
             const std::vector<Eigen::Vector3d> list = toPoints(points.value);
+            const GeometryOptions asked = BodyOptions{r, R}.ofAll();
             py::gil_scoped_release others;
-            return held(StpBv::build(list, {r, R}));
+            return held(StpBv::build(list, detail::withFitted(asked.radii, asked.fitr, asked.fitR,
+                                                              [&] { return detail::sizeOf(list); })));
           },
-          py::arg("points"), py::arg("r") = 0.01, py::arg("R") = 10.0,
-          "Volume around an (n, 3) array of points; raises Error naming what would work.")
+          py::arg("points"), py::arg("r") = 0.01, py::arg("R") = py::none(),
+          "Volume around an (n, 3) array of points; raises Error naming what would work. r, R: lengths (m), "
+          "or\n"
+          "\"auto\", by which they fit the points; R is 10 unless given, or auto where r is.")
       .def_static(
           "load", [](const Path& path) { return held(loadStpBv(path.string())); }, py::arg("path"),
           "Reads a .stpbv file; raises Error naming it.")

@@ -41,8 +41,9 @@ bool holdsVolume(const std::string& path) {
 void checkSameRadii(const std::string& input, const Radii& radii, const ConversionOptions& options) {
   if (options.advise)
     throw Error(input + ": is an STP-BV already; give the mesh it was made from, or leave out --advise");
-  const bool same = !options.fitr && !options.fitR && options.r.value_or(radii.r) == radii.r &&
-                    options.R.value_or(radii.R) == radii.R;
+  const AskedRadii& asked = options.radii;
+  const bool same =
+      !asked.fits() && asked.r.value_or(radii.r) == radii.r && asked.R.value_or(radii.R) == radii.R;
   if (same && options.scale == 1) return;
   throw Error(input + ": is an STP-BV already, made with r = " + toDecimal(radii.r) +
               " and R = " + toDecimal(radii.R) +
@@ -115,11 +116,8 @@ Content readInput(const std::string& path, double factor) {
 }
 
 StpBvOptions radiiFor(const Points& points, const ConversionOptions& options) {
-  StpBvOptions radii;
-  radii.r = options.r.value_or(radii.r);
-  radii.R = options.R.value_or(radii.R);
-  if (!options.fitr && !options.fitR) return radii;
-  return withFitted(radii, options.fitr, options.fitR, sizeOf(points));
+  const AskedRadii& asked = options.radii;
+  return withFitted(asked.lengths(), asked.fitr, asked.fitR, [&] { return sizeOf(points); });
 }
 
 Report convert(const std::string& input, const ConversionOptions& options) {
@@ -133,7 +131,7 @@ Report convert(const std::string& input, const ConversionOptions& options) {
     points = report.volume->vertices();
   } else {
     if (options.advise) report.advice = advised(input, points, *options.advise);
-    report.fitted = options.fitr || options.fitR;
+    report.fitted = options.radii.fits();
     const auto start = std::chrono::steady_clock::now();
     report.volume = detail::within(input, [&] {
       return StpBv::build(points, report.advice ? report.advice->radii : radiiFor(points, options));

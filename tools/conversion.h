@@ -9,14 +9,14 @@
 #include "fcl_stpbv/volume/measure.h"
 #include "fcl_stpbv/volume/radii_advice.h"
 #include "fcl_stpbv/volume/stp_bv.h"
+#include "tools/asked_radii.h"
 
 namespace fcl_stpbv::tools {
 
 enum class Format { stpbv, sch };
 
 struct ConversionOptions {
-  std::optional<double> r, R;       ///< StpBvOptions' values where not given
-  bool fitr = false, fitR = false;  ///< an r and R that fit the input's size (docs/choosing_r_and_R.md)
+  AskedRadii radii;
   std::optional<RadiiTask> advise;  ///< the radii that it leads to, instead
   double scale = 1;
   Format format = Format::stpbv;

@@ -58,8 +58,8 @@ or the report cannot be written.)";
 
 struct Arguments {
   std::vector<std::string> inputs;
-  std::string output, format = "stpbv";
-  std::optional<std::string> r, R, advise;
+  std::string output, format = "stpbv", r, R;
+  std::optional<std::string> advise;
   std::optional<int> parts;
   std::optional<double> excess, effort;
   ConversionOptions conversion;
@@ -228,16 +228,8 @@ std::vector<std::filesystem::path> missingFolders(std::filesystem::path folder) 
   return missing;
 }
 
-// Lengths or "auto"; R follows r where it is not given.
-void setRadii(const Arguments& arguments, ConversionOptions& conversion) {
-  conversion.fitr = arguments.r == "auto";
-  conversion.fitR = arguments.R ? *arguments.R == "auto" : conversion.fitr;
-  if (arguments.r && !conversion.fitr) conversion.r = std::stod(*arguments.r);
-  if (arguments.R && !conversion.fitR) conversion.R = std::stod(*arguments.R);
-}
-
 int run(Arguments& arguments) {
-  setRadii(arguments, arguments.conversion);
+  arguments.conversion.radii = AskedRadii(arguments.r, arguments.R);
   arguments.conversion.measure = arguments.json || !arguments.quiet;
   arguments.conversion.format = arguments.format == "sch" ? Format::sch : Format::stpbv;
   arguments.conversion.parts = partsOf(arguments);

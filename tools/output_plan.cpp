@@ -104,8 +104,8 @@ void checkTarget(const std::string& option, const std::string& target, InputFile
 }
 
 void checkValues(const ConversionOptions& options) {
-  const StpBvOptions defaults;
-  if (options.R.value_or(defaults.R) <= options.r.value_or(defaults.r))
+  const StpBvOptions lengths = options.radii.lengths();
+  if (!options.radii.fits() && lengths.R <= lengths.r)
     throw UsageError("-R: the big radius must be larger than the small radius r");
 }
 

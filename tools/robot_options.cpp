@@ -8,6 +8,7 @@
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/formatted.h"
 #include "fcl_stpbv/robot/package_path.h"
+#include "tools/asked_radii.h"
 #include "tools/number_check.h"
 #include "tools/output_plan.h"
 #include "tools/radii_task.h"
@@ -102,13 +103,12 @@ void readLink(const std::string& text, GeometryOptions& options) {
   if (values.size() == 3) options.budgets[name] = lengthOf(option, values[2], kLargest, true);
 }
 
-// Lengths or "auto"; R follows r where it is not given.
 void setRadii(const RobotArguments& a, GeometryOptions& geometry) {
-  geometry.fitr = a.r == "auto";
-  geometry.fitR = a.R.empty() ? geometry.fitr : a.R == "auto";
-  if (!geometry.fitr) geometry.radii.r = std::stod(a.r);
-  if (!geometry.fitR && !a.R.empty()) geometry.radii.R = std::stod(a.R);
-  if (!geometry.fitr && !geometry.fitR && geometry.radii.R <= geometry.radii.r)
+  const AskedRadii asked(a.r, a.R);
+  geometry.fitr = asked.fitr;
+  geometry.fitR = asked.fitR;
+  geometry.radii = asked.lengths();
+  if (!asked.fits() && geometry.radii.R <= geometry.radii.r)
     throw Error("-r " + a.r + (a.R.empty() ? "" : " -R " + a.R) +
                 ": R must be larger than r; it is 10 unless given");
 }

@@ -34,9 +34,12 @@ double fittedR(double ball, double r) {
   return bulge > 0 ? r + (ball * ball + bulge * bulge) / (2 * bulge) : StpBvOptions().R;
 }
 
-StpBvOptions withFitted(const StpBvOptions& given, bool fitr, bool fitR, const BodySize& size) {
-  const double r = fitr ? fittedRadii(size).r : given.r;
-  return {r, fitR ? fittedR(size.ball, r) : given.R};
+StpBvOptions withFitted(const StpBvOptions& given, bool fitr, bool fitR,
+                        const std::function<BodySize()>& size) {
+  if (!fitr && !fitR) return given;
+  const BodySize body = size();
+  const double r = fitr ? fittedRadii(body).r : given.r;
+  return {r, fitR ? fittedR(body.ball, r) : given.R};
 }
 
 }  // namespace fcl_stpbv::detail

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <vector>
 
 #include "fcl_stpbv/volume/stp_bv.h"
@@ -28,7 +29,9 @@ StpBvOptions fittedRadii(const BodySize& size);
 /// more. So the over-cover is at most r plus that bulge (docs/choosing_r_and_R.md).
 double fittedR(double ball, double r);
 
-/// The radii given, with an r and an R that fit the body where they are asked for.
-StpBvOptions withFitted(const StpBvOptions& given, bool fitr, bool fitR, const BodySize& size);
+/// The radii given, with an r and an R that fit the body where they are asked for; `size` is called only
+/// then.
+StpBvOptions withFitted(const StpBvOptions& given, bool fitr, bool fitR,
+                        const std::function<BodySize()>& size);
 
 }  // namespace fcl_stpbv::detail

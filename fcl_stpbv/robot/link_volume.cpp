@@ -173,8 +173,7 @@ StpBvOptions radiiFor(const GeometryOptions& options, const std::string& link,
                       const std::function<BodySize()>& size) {
   const auto own = options.links.find(link);
   if (own != options.links.end()) return own->second;
-  if (!options.fitr && !options.fitR) return options.radii;
-  return withFitted(options.radii, options.fitr, options.fitR, size());
+  return withFitted(options.radii, options.fitr, options.fitR, size);
 }
 
 void makeVolume(const GeometryOptions& options, const std::string& link, const ShapeSource& source,

@@ -21,6 +21,7 @@ DATA = pathlib.Path(os.environ.get("FCL_STPBV_DATA", pathlib.Path(__file__).pare
 HRP2 = DATA / "hrp2_style"
 TOOLS = DATA.parent / "test/tools"
 ARM = TOOLS / "six_joint_arm.urdf"
+MESH_TO_STPBV = pathlib.Path(fcl_stpbv.__file__).parents[2] / "bin/mesh_to_stpbv"
 PROVE = ["prove", ARM, "--budget", "10", "--boxes", "500", "--descents", "1"]  # several rounds for most pairs
 
 
@@ -95,8 +96,19 @@ def test_radii_that_fit_each_link_are_those_of_the_python_searches(tmp_path):
     assert (job["q"], job["cost"]) == (alone["q"], alone["cost"])
     for mistake, what in ((["-r", "Auto"], "got Auto, expected a number from 0 to 1000000.0 m or 'auto'"), (["-R", "-1"], "or 'auto'")):
         assert what in batch(*sample, *mistake, "-o", tmp_path / "none", status=2)
-    convert = ["convert", HRP2 / "meshes/BODY.dae", "--volumes", tmp_path, "-o", tmp_path / "none"]
-    assert "got auto, expected a number" in batch(*convert, "-r", "auto", status=2)
+
+
+@pytest.mark.skipif(not MESH_TO_STPBV.exists(), reason="mesh_to_stpbv is not built")
+@pytest.mark.parametrize("radii, same", [(["-r", "auto"], {"r": "auto"}), (["-r", "auto", "-R", "5"], {"r": "auto", "R": 5}), (["-R", "auto"], {"R": "auto"})])
+def test_a_mesh_is_converted_with_radii_that_fit_it_as_mesh_to_stpbv_does(tmp_path, radii, same):
+    mesh, alone = HRP2 / "meshes/BODY.dae", tmp_path / "alone.stpbv"
+    batch("convert", mesh, *radii, "--volumes", tmp_path / "volumes", "-o", tmp_path / "out", "--jobs", 1)
+    subprocess.run([MESH_TO_STPBV, mesh, *radii, "-o", alone, "-q"], check=True)
+    assert (tmp_path / "volumes/BODY.stpbv").read_bytes() == alone.read_bytes()
+    volume, written = fcl_stpbv.StpBv.build(fcl_stpbv.load_points(mesh), **same), fcl_stpbv.StpBv.load(alone)
+    assert (0.01, 10) != (volume.r, volume.R) == (written.r, written.R)
+    with pytest.raises(fcl_stpbv.Error, match='^R: got "fit", expected a length .* or "auto"'):
+        fcl_stpbv.StpBv.build(volume.vertices, R="fit")
 
 
 def bits(proof):

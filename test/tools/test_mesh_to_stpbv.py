@@ -100,6 +100,7 @@ class MeshToStpbv(unittest.TestCase):
         self.assertEqual(radii("-r", "auto")[0], 0.01)
         self.assertEqual(radii("-r", "0.003", "-R", "auto")[0], 0.003)
         self.assertNotEqual(radii("-r", "0.003", "-R", "auto")[1], 10)
+        self.assertEqual(radii("-r", "20", "-R", "auto")[0], 20)  # above the R of 10 that holds where it is not given
         write(self.at("one.txt"), points_file([(1, 2, 3)]))
         self.assertIn("fitted r 0 mm, R 10 m", self.run_tool("one.txt", "-o", "one.stpbv", "-r", "auto").stdout)
         self.assertIn("fitted r 10 mm, R ", self.run_tool("cube.txt", "-o", "a.stpbv", "-r", "auto", "--force").stdout)

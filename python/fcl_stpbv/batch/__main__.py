@@ -45,9 +45,13 @@ def share(text):
     return int(found[1]), int(found[2])
 
 
-FITTED = number(float, 0, 1e6, " m", "auto")
-LENGTH, MARGIN, SCALE = number(float, 0, 1e6, " m"), number(float, -1e6, 1e6, " m"), number(float, 1e-9, 1e9)
+LENGTH, MARGIN, SCALE = number(float, 0, 1e6, " m", "auto"), number(float, -1e6, 1e6, " m"), number(float, 1e-9, 1e9)
 COUNT, WHOLE = number(int, 1, 2**31 - 1), number(int, 0, 2**31 - 1)  # what an int holds in C++
+
+
+def radii(parser, body):
+    parser.add_argument("-r", type=LENGTH, default=0.01, help=f"radius of the small spheres, the margin (m); 'auto' fits each {body} [0.01]")
+    parser.add_argument("-R", type=LENGTH, help=f"radius of the big spheres (m); 'auto' fits each {body} [10, or auto where r is]")
 
 
 def described():
@@ -62,8 +66,7 @@ def described():
     robot = argparse.ArgumentParser(add_help=False)
     robot.add_argument("robot", type=given, metavar="ROBOT", help="its URDF")
     robot.add_argument("--package-path", type=given, action="append", default=[], metavar="FOLDER", help="holds packages; may be given again")
-    robot.add_argument("-r", type=FITTED, default=0.01, help="radius of the small spheres, the margin (m); 'auto' fits each link [0.01]")
-    robot.add_argument("-R", type=FITTED, help="radius of the big spheres (m); 'auto' fits each link [10, or auto where r is]")
+    radii(robot, "link")
     robot.add_argument("--seed", type=WHOLE, default=1, help="of the random numbers [1]")
     pairs = argparse.ArgumentParser(add_help=False)
     pairs.add_argument("--obstacles", type=given, metavar="FILE", help="URDF of a scene: each moving link and obstacle is a pair too")
@@ -91,8 +94,7 @@ def described():
     convert = kinds.add_parser("convert", parents=[common], help="meshes to volumes")
     convert.add_argument("meshes", type=given, nargs="+", metavar="MESH")
     convert.add_argument("--volumes", type=given, required=True, metavar="FOLDER", help="where MESH.stpbv goes, replacing nothing; made if missing")
-    convert.add_argument("-r", type=LENGTH, default=0.01, help="radius of the small spheres, the margin (m) [0.01]")
-    convert.add_argument("-R", type=LENGTH, default=10.0, help="radius of the big spheres (m) [10]")
+    radii(convert, "mesh")
     convert.add_argument("--scale", type=SCALE, default=1.0, help="factor on the coordinates, 0.001 for millimetres [1]")
     return parser
 
