@@ -117,8 +117,8 @@ SolverOutcome solve(PostureProblem& problem, const Eigen::VectorXd& start,
 // Searches for a posture and keeps the best of all points that were tried.
 class PostureSearch {
  public:
-  PostureSearch(PostureProblem& problem, const PostureOptions& options)
-      : problem_(problem), options_(options), solver_(options.solver) {}
+  PostureSearch(PostureProblem& problem, const Eigen::VectorXd& spread, const PostureOptions& options)
+      : problem_(problem), spread_(spread), options_(options), solver_(options.solver) {}
 
   /// Tries the starts at and around `start` one after the other, until one leads to a posture.
   void fromStarts(const Eigen::VectorXd& start) {
@@ -128,7 +128,7 @@ class PostureSearch {
     // through it and is pushed out behind it.
     constexpr double kSoft = 0.3, kFirm = 1;
     const long long first = std::max(0, options_.firstStart), last = first + std::max(1, options_.starts);
-    Starts starts(problem_, start, options_.seed, first);
+    Starts starts(problem_, start, spread_, options_.seed, first);
     for (long long i = first; i < last && !best_.feasible; ++i) {
       ++best_.starts;
       consider(solve(problem_, problem_.variablesAt(starts.next()),
@@ -191,6 +191,7 @@ class PostureSearch {
   }
 
   PostureProblem& problem_;
+  const Eigen::VectorXd& spread_;  // of random starts
   const PostureOptions& options_;
   const SolverOptions& solver_;
   Posture best_;
@@ -210,9 +211,8 @@ Posture findPosture(PostureSetup& setup, const PostureOptions& options) {
     throw Error("findPosture: the start has " + std::to_string(size) + " coordinates, the robot " +
                 std::to_string(problem.kinematics().size()));
   const long queriesBefore = problem.queries();
-  PostureSearch search(problem, options);
-  // The random starts lie around a start within the limits. Around another one all of them could end at the
-  // same limit.
+  PostureSearch search(problem, setup.spread, options);
+  // The random starts are around one within the limits: around another all could end at the same limit.
   search.fromStarts(problem.variablesAt(setup.start).head(size));
   search.explain();
   Posture& best = search.best();

@@ -21,8 +21,18 @@ constexpr double kHalfWay = 0.5, kAnywhere = 1;
 
 }  // namespace
 
-Starts::Starts(PostureProblem& problem, const VectorXd& start, std::uint64_t seed, long long first)
-    : problem_(problem), start_(start), seed_(seed), next_(first - first % kAnew) {
+Starts::Starts(PostureProblem& problem, const VectorXd& start, const VectorXd& spread, std::uint64_t seed,
+               long long first)
+    : problem_(problem),
+      start_(start),
+      lower_(problem.lower().head(start.size())),
+      upper_(problem.upper().head(start.size())),
+      seed_(seed),
+      next_(first - first % kAnew) {
+  if (spread.size() > 0) {
+    lower_ = lower_.cwiseMax(start - spread);
+    upper_ = upper_.cwiseMin(start + spread);
+  }
   beginAnew();
   while (next_ < first) next();
 }
@@ -46,7 +56,7 @@ VectorXd Starts::randomPosture(double way) {
   const auto uniform = [&] { return static_cast<double>(random_() >> 11) * 0x1p-53; };
   VectorXd q = start_;
   for (int i = 0; i < kinematics.size(); ++i) {
-    const double low = problem_.lower()[i], range = problem_.upper()[i] - low, share = uniform();
+    const double low = lower_[i], range = upper_[i] - low, share = uniform();
     q[i] += std::isfinite(range) ? way * (low + share * range - start_[i]) : 0.1 * (2 * share - 1);
   }
   for (const Kinematics::Motion& motion : kinematics.motions()) {

@@ -13,12 +13,13 @@ namespace fcl_stpbv::detail {
 /// The starts of a search by their numbers. The problem and the task's start must outlive this object.
 class Starts {
  public:
-  /// `first` is the number of the first start, not below 0.
-  Starts(PostureProblem& problem, const Eigen::VectorXd& start, std::uint64_t seed, long long first);
+  /// From the start number `first` on, not below 0. `spread`: PostureSetup's.
+  Starts(PostureProblem& problem, const Eigen::VectorXd& start, const Eigen::VectorXd& spread,
+         std::uint64_t seed, long long first);
 
-  /// The next start. Number 0 is the task's own. The others are random postures around it: joints go up to
-  /// half way to anywhere within their limits, a moving base up to 10 cm and 0.2 rad away, and coordinates
-  /// without limits up to 0.1 m or rad away.
+  /// Number 0 is the task's own. The others are random postures around it: joints up to half way to anywhere
+  /// within their limits and the spread, a moving base up to 10 cm and 0.2 rad away, and what has no limits
+  /// likewise 0.1 m or rad.
   Eigen::VectorXd next();
 
   /// Repairs the variables x. For each violated inequality, the coordinates on which it depends are redrawn
@@ -27,7 +28,7 @@ class Starts {
   /// a random posture would have to remove all of them at once. No value if x violates no inequality.
   std::optional<Eigen::VectorXd> mended(const Eigen::VectorXd& x, const SolverOptions& options);
 
-  /// A random posture within the limits: of ten, the one with the smallest violations.
+  /// A random posture within the limits and the spread: the one with the smallest violations of ten.
   Eigen::VectorXd anywhere();
 
  private:
@@ -36,6 +37,7 @@ class Starts {
 
   PostureProblem& problem_;
   const Eigen::VectorXd& start_;
+  Eigen::VectorXd lower_, upper_;  // of random values
   std::uint64_t seed_;
   long long next_;  // number of the start that comes next
   std::mt19937_64 random_;

@@ -5,10 +5,12 @@
 #include <algorithm>
 
 #include "fcl_stpbv/error.h"
+#include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/posture/collision_rows.h"
 #include "fcl_stpbv/posture/task_start.h"
 #include "fcl_stpbv/robot/near_name.h"
 #include "fcl_stpbv/robot/pair_list.h"
+#include "fcl_stpbv/robot/search_room.h"
 
 namespace fcl_stpbv {
 namespace {
@@ -117,11 +119,21 @@ std::vector<CheckedPair> pairsOf(const PostureTask& task, const PostureScene& sc
 
 namespace {
 
+Eigen::VectorXd spreadOf(const SearchRoom& room, const Kinematics& kinematics) {
+  Eigen::VectorXd spread = Eigen::VectorXd::Constant(kinematics.size(), kInfinity);
+  for (const Eigen::Index i : room.narrowed) {
+    const double neutral = kinematics.neutral()[i];
+    spread[i] = std::max(room.upper[i] - neutral, neutral - room.lower[i]);
+  }
+  return spread;
+}
+
 // The problem without collisions, for a task whose base is at the origin.
 PostureSetup placed(const PostureTask& task, const PostureScene& scene) {
   const auto kinematics = std::make_shared<const Kinematics>(scene.robot, task.base);
   PostureSetup setup;
   setup.start = startOf(task, scene, *kinematics);
+  setup.spread = spreadOf(searchRoom(*kinematics, *scene.geometry, scene.obstacles), *kinematics);
   setup.problem =
       std::make_shared<PostureProblem>(kinematics, costOf(task, *kinematics, setup.start), setup.start);
   for (std::size_t i = 0; i < task.placements.size(); ++i) {

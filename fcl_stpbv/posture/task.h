@@ -213,7 +213,11 @@ PostureTask parseTask(const std::string& text, const std::string& path);
 /// The optimisation problem of a task, and its start.
 struct PostureSetup {
   std::shared_ptr<PostureProblem> problem;  ///< never null
-  Eigen::VectorXd start;                    ///< coordinates q
+  Eigen::VectorXd start;                    ///< q
+  /// How far random starts go from `start`, one entry per coordinate: infinite, for as far as the limits
+  /// allow, except for joints that slide more than a hundred times as far as bodies can meet. None: all
+  /// infinite.
+  Eigen::VectorXd spread;
   /// The pairs that the problem keeps apart. Pairs whose bodies cannot move relative to each other are only
   /// checked; if they collide they are in PostureProblem::still().
   std::vector<CheckedPair> pairs;

@@ -161,6 +161,29 @@ TEST_CASE("a start of another size than the robot's is refused") {
   CHECK_THROWS_WITH(findPosture(setup), Catch::Contains("start has 40 coordinates"));
 }
 
+TEST_CASE("random starts of a joint whose limits stand for none are where bodies can meet") {
+  // What a carriage on a rail is drawn at is what it ends at, as nothing asks for another place.
+  const PostureScene scene = bodiesOf(ball("base") + ball("cart") +
+                                      joint("rail", "prismatic", "base", "cart",
+                                            "<origin xyz='0 1 0'/><axis xyz='1 0 0'/><limit lower='-1e16' "
+                                            "upper='1e16' effort='1' velocity='1'/>"));
+  for (const double start : {0.0, 3000.0}) {
+    PostureSetup setup = setUp(taskOf(R"({"base": "fixed", "placements": [], "start": {"joints": {"rail": )" +
+                                      std::to_string(start) + R"(}}, "cost": {"weights": {"rail": 0}}})"),
+                               scene);
+    PostureOptions options;
+    options.starts = 1;
+    double most = 0;
+    for (options.firstStart = 1; options.firstStart < 20; ++options.firstStart) {
+      const Posture posture = findPosture(setup, options);
+      REQUIRE(posture.feasible);
+      most = std::max(most, std::abs(posture.q[0] - start));
+    }
+    CHECK(most > 0.2);
+    CHECK(most < 1.1);  // half way to twice the reach of 1.05 m
+  }
+}
+
 TEST_CASE("random starts of a joint without limits are numbers, and no worse than none") {
   for (const std::string type : {"planar", "floating"}) {
     const PostureScene scene =
