@@ -71,42 +71,47 @@ nlohmann::json trajectoryJson(const CollisionReport& report) {
   return json;
 }
 
+// A value that there is only under some condition, else null.
+template <class Make>
+nlohmann::json onlyIf(bool known, const Make& make) {
+  return known ? nlohmann::json(make()) : nlohmann::json();
+}
+
+nlohmann::json polyhedronJson(const PolyhedronReport& p) {
+  return {{"file", p.file},
+          {"vertices", p.vertices},
+          {"without_partner", p.alone},
+          {"mesh_without_partner", p.meshAlone},
+          {"surface_difference", p.difference}};
+}
+
 nlohmann::json linkJson(const CollisionReport& report, std::size_t i) {
   const Body& body = report.geometry->bodies[i];
-  nlohmann::json link{{"name", body.name}, {"file", body.file}};
-  for (const char* unknown :
-       {"vertices", "vertices_unreduced", "r", "R", "advised_acceleration", "advised_least_clearance",
-        "over_cover_max", "over_cover_mean", "hull_excess", "volume_excess", "volume_ratio", "polyhedron"})
-    link[unknown] = nullptr;
-  if (body.volume) {
-    link["vertices"] = body.volume->vertexCount();
-    link["vertices_unreduced"] = (body.isReduced() ? body.full->volume() : *body.volume).vertexCount();
-    link["r"] = body.volume->radii().r;
-    link["R"] = body.volume->radii().R;
-    if (body.advice) {
-      link["advised_acceleration"] = body.advice->acceleration;
-      link["advised_least_clearance"] = orNull(body.advice->leastClearance);
-    }
-    link["over_cover_max"] = body.cover.max;
-    link["over_cover_mean"] = body.cover.mean;
-  }
+  const StpBv* const volume = body.volume.get();
+  const RadiiAdvice* const advice = volume && body.advice ? &*body.advice : nullptr;
+  const MeshFit* const fit = i < report.fits.size() ? &report.fits[i] : nullptr;
+  const PolyhedronReport* const polyhedron =
+      i < report.polyhedra.size() && !report.polyhedra[i].file.empty() ? &report.polyhedra[i] : nullptr;
+  nlohmann::json link{
+      {"name", body.name},
+      {"file", body.file},
+      {"vertices", onlyIf(volume, [&] { return volume->vertexCount(); })},
+      {"vertices_unreduced",
+       onlyIf(volume, [&] { return (body.isReduced() ? body.full->volume() : *volume).vertexCount(); })},
+      {"r", onlyIf(volume, [&] { return volume->radii().r; })},
+      {"R", onlyIf(volume, [&] { return volume->radii().R; })},
+      {"advised_acceleration", onlyIf(advice, [&] { return advice->acceleration; })},
+      {"advised_least_clearance", onlyIf(advice, [&] { return orNull(advice->leastClearance); })},
+      {"over_cover_max", onlyIf(volume, [&] { return body.cover.max; })},
+      {"over_cover_mean", onlyIf(volume, [&] { return body.cover.mean; })},
+      {"hull_excess", onlyIf(fit, [&] { return fit->hullExcess; })},
+      {"volume_excess", onlyIf(fit, [&] { return fit->volumeExcess; })},
+      {"volume_ratio", onlyIf(fit, [&] { return orNull(fit->volumeRatio); })},
+      {"polyhedron", onlyIf(polyhedron, [&] { return polyhedronJson(*polyhedron); })}};
   if (body.parts > 0) link["parts"] = body.parts;
   if (body.partOf >= 0) {
     link["part_of"] = report.geometry->bodies[static_cast<std::size_t>(body.partOf)].name;
     link["excess_max"] = body.excess;
-  }
-  if (i < report.fits.size()) {
-    link["hull_excess"] = report.fits[i].hullExcess;
-    link["volume_excess"] = report.fits[i].volumeExcess;
-    link["volume_ratio"] = orNull(report.fits[i].volumeRatio);
-  }
-  if (i < report.polyhedra.size() && !report.polyhedra[i].file.empty()) {
-    const PolyhedronReport& p = report.polyhedra[i];
-    link["polyhedron"] = {{"file", p.file},
-                          {"vertices", p.vertices},
-                          {"without_partner", p.alone},
-                          {"mesh_without_partner", p.meshAlone},
-                          {"surface_difference", p.difference}};
   }
   return link;
 }
