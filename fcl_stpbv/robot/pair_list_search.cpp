@@ -1,6 +1,7 @@
 // Finds the reasons for pairs by samples, as MoveIt's setup assistant does, and then by descents and proofs.
 // Each stage handles the pairs that are still undecided.
-// 1. The tree of joints: pairs that are adjacent, rigidly joined, or left out by the user's SRDF.
+// 1. The tree of joints: pairs that are adjacent, rigidly joined, or left out by the user's SRDF
+// (pair_tree.h).
 // 2. Random samples: a collision in the neutral configuration, in (nearly) all samples, in some, or in none.
 // 3. Without a collision: descents of the distance from the closest samples, then a short proof by boxes of
 //    joint values (pair_proof.h), then descents from random configurations.
@@ -14,13 +15,13 @@
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/number_check.h"
 #include "fcl_stpbv/numbers.h"
-#include "fcl_stpbv/robot/adjacency.h"
 #include "fcl_stpbv/robot/joint_path.h"
 #include "fcl_stpbv/robot/pair_list.h"
 #include "fcl_stpbv/robot/pair_list_again.h"
 #include "fcl_stpbv/robot/pair_proof.h"
 #include "fcl_stpbv/robot/pair_samples.h"
 #include "fcl_stpbv/robot/pair_search.h"
+#include "fcl_stpbv/robot/pair_tree.h"
 #include "fcl_stpbv/robot/search_room.h"
 #include "fcl_stpbv/robot/share_out.h"
 
@@ -50,7 +51,14 @@ class Search {
   // `before`, null for none: entries to keep for pairs that are not among `changed`.
   std::vector<PairEntry> run(const Srdf* srdf, const std::vector<PairEntry>* before = nullptr,
                              const std::set<LinkPair>& changed = {}) {
-    enumerate(srdf);
+    for (const TreePair& pair : pairsOfTree(*kinematics_, *geometry_, srdf, options_.obstacles.size())) {
+      PairEntry entry;
+      static_cast<LinkPair&>(entry) = pair;
+      entry.reason = pair.reason;
+      entry.closest = neutral_;
+      list_.push_back(entry);
+      isJoined_.push_back(pair.joined);
+    }
     std::vector<PairEntry*> fresh;
     for (std::size_t e = 0; e < list_.size(); ++e) {
       isFresh_.push_back(!before || changed.count(list_[e]) > 0);
@@ -79,40 +87,6 @@ class Search {
 
   void tell(const char* what, std::size_t done, std::size_t all) const {
     if (options_.progress) options_.progress(done, all, what);
-  }
-
-  void enumerate(const Srdf* srdf) {
-    const RobotModel& robot = kinematics_->robot();
-    const Adjacency adjacency(robot, *geometry_);
-    const int links = static_cast<int>(robot.links.size());
-    const auto none = [&](int link) { return geometry_->of(link).first == geometry_->of(link).second; };
-    const auto add = [&](const LinkPair& pair, PairReason reason, bool joined = false) {
-      PairEntry entry;
-      static_cast<LinkPair&>(entry) = pair;
-      entry.reason = reason;
-      entry.closest = neutral_;
-      list_.push_back(entry);
-      isJoined_.push_back(joined);
-    };
-    const SkipReasons reasons(srdf);
-    for (int i = 0; i < links; ++i) {
-      for (int j = i + 1; j < links; ++j) {
-        if (none(i) || none(j)) continue;
-        const Joining joining = adjacency.of(i, j);
-        const std::string skipped = reasons.of(robot.links[at(i)].name, robot.links[at(j)].name);
-        // An SRDF that does not leave out adjacent links has them checked: they are searched as others are.
-        const bool joined = srdf && skipped.empty() && joining == Joining::adjacent;
-        add({i, j},
-            skipped == "User"                         ? PairReason::user
-            : joining == Joining::rigid               ? PairReason::rigid
-            : joining == Joining::adjacent && !joined ? PairReason::adjacent
-                                                      : PairReason::sometimes,
-            joined);
-      }
-    }
-    for (int i = 0; i < links; ++i)
-      for (int o = 0; o < static_cast<int>(options_.obstacles.size()); ++o)
-        if (!none(i) && moves(robot, i, kinematics_->baseMoves())) add({i, o, true}, PairReason::sometimes);
   }
 
   // Of those wanted among the fresh ones.
