@@ -9,11 +9,11 @@
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/error_place.h"
 #include "fcl_stpbv/numbers.h"
-#include "fcl_stpbv/robot/capsule_fit.h"
 #include "fcl_stpbv/robot/followed_range.h"
 #include "fcl_stpbv/robot/mimic_chain.h"
 #include "fcl_stpbv/robot/urdf_check.h"
 #include "fcl_stpbv/robot/urdf_element.h"
+#include "fcl_stpbv/robot/urdf_shape.h"
 #include "fcl_stpbv/robot/urdf_words.h"
 #include "fcl_stpbv/robot/xml_text.h"
 
@@ -27,73 +27,6 @@ namespace {
 
 using namespace detail;
 using tinyxml2::XMLElement;
-
-bool isUsable(const Eigen::Vector3d& v) {
-  return v.allFinite() && v.lpNorm<Eigen::Infinity>() <= kLargestValue;
-}
-
-Eigen::Vector3d toEigen(const urdf::Vector3& v) { return {v.x, v.y, v.z}; }
-
-Eigen::Isometry3d toEigen(const urdf::Pose& pose) {
-  const Eigen::Quaterniond rotation(pose.rotation.w, pose.rotation.x, pose.rotation.y, pose.rotation.z);
-  const Eigen::Vector3d position = toEigen(pose.position);
-  if (!isUsable(position) || !rotation.coeffs().allFinite() || !(rotation.norm() > 0.5))
-    throw Error("its origin must be finite, and within 1e6 m");
-  return Eigen::Translation3d(position) * rotation.normalized();
-}
-
-ShapeModel toShape(const urdf::Geometry& geometry, const urdf::Pose& origin, bool capsule) {
-  ShapeModel shape;
-  shape.pose = toEigen(origin);
-  if (geometry.type == urdf::Geometry::SPHERE) {
-    shape.kind = ShapeModel::Kind::sphere;
-    shape.size.x() = static_cast<const urdf::Sphere&>(geometry).radius;
-  } else if (geometry.type == urdf::Geometry::BOX) {
-    shape.kind = ShapeModel::Kind::box;
-    shape.size = toEigen(static_cast<const urdf::Box&>(geometry).dim);
-  } else if (geometry.type == urdf::Geometry::CYLINDER) {
-    const auto& cylinder = static_cast<const urdf::Cylinder&>(geometry);
-    shape.kind = capsule ? ShapeModel::Kind::capsule : ShapeModel::Kind::cylinder;
-    shape.size = {cylinder.radius, cylinder.length, 0};
-  } else {
-    const auto& mesh = static_cast<const urdf::Mesh&>(geometry);
-    shape.mesh = mesh.filename;
-    shape.scale = toEigen(mesh.scale);
-    if (shape.mesh.empty()) throw Error("its mesh has an empty file name");
-    if (!shape.scale.allFinite() || (shape.scale.array() == 0).any())
-      throw Error("the scale of " + shape.mesh + " is 0 or not finite; give three other numbers");
-    return shape;
-  }
-  const bool box = shape.kind == ShapeModel::Kind::box;  // may be a plate or a bar
-  if (!isUsable(shape.size) || (shape.size.array() < 0).any() ||
-      !((box ? shape.size.maxCoeff() : shape.size.x()) > 0))
-    throw Error("a shape's sizes must be finite and larger than 0, and at most 1e6 m");
-  return shape;
-}
-
-ShapeModel readShape(const XMLElement& element, const std::string& place) {
-  return within(place, [&] {
-    checkShapeWords(element);
-    const urdf::CollisionSharedPtr read = readShapeElement(element);
-    const bool capsule = element.FirstChildElement("geometry")->FirstChildElement("capsule") != nullptr;
-    ShapeModel shape = toShape(*read->geometry, read->origin, capsule);
-    shape.place = place;
-    return shape;
-  });
-}
-
-// `use` is "collision" or "visual".
-std::vector<ShapeModel> readShapes(const XMLElement& link, const char* use, const std::string& path,
-                                   std::vector<std::string>& faults) {
-  std::vector<ShapeModel> shapes;
-  int number = 0;
-  for (const XMLElement* e = link.FirstChildElement(use); e; e = e->NextSiblingElement(use)) {
-    const std::string place = shapePlace(*e, path, link.Attribute("name"), use, ++number);
-    LoadFaults::gather(faults, [&] { shapes.push_back(readShape(*e, place)); });
-  }
-  joinCapsules(shapes);
-  return shapes;
-}
 
 void readInertial(const XMLElement& element, LinkModel& link) {
   checkInertialWords(element);

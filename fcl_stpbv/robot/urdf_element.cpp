@@ -11,6 +11,7 @@
 #include <string>
 
 #include "fcl_stpbv/error.h"
+#include "fcl_stpbv/robot/followed_range.h"
 #include "fcl_stpbv/robot/xml_text.h"
 
 namespace fcl_stpbv::detail {
@@ -148,6 +149,20 @@ urdf::JointSharedPtr readJointElement(const XMLElement& joint) {
       model ? model->joints_.find("j") : std::map<std::string, urdf::JointSharedPtr>::iterator();
   if (!model || read == model->joints_.end()) refuse(reason);
   return read->second;
+}
+
+bool isUsable(const Eigen::Vector3d& v) {
+  return v.allFinite() && v.lpNorm<Eigen::Infinity>() <= kLargestValue;
+}
+
+Eigen::Vector3d toEigen(const urdf::Vector3& v) { return {v.x, v.y, v.z}; }
+
+Eigen::Isometry3d toEigen(const urdf::Pose& pose) {
+  const Eigen::Quaterniond rotation(pose.rotation.w, pose.rotation.x, pose.rotation.y, pose.rotation.z);
+  const Eigen::Vector3d position = toEigen(pose.position);
+  if (!isUsable(position) || !rotation.coeffs().allFinite() || !(rotation.norm() > 0.5))
+    throw Error("its origin must be finite, and within 1e6 m");
+  return Eigen::Translation3d(position) * rotation.normalized();
 }
 
 std::string shapePlace(const tinyxml2::XMLElement& shape, const std::string& path, const std::string& link,

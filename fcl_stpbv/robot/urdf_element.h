@@ -5,6 +5,7 @@
 #include <urdf_model/joint.h>
 #include <urdf_model/link.h>
 
+#include <Eigen/Geometry>
 #include <string>
 
 namespace fcl_stpbv::detail {
@@ -24,5 +25,11 @@ urdf::InertialSharedPtr readInertialElement(const tinyxml2::XMLElement& inertial
 
 /// A `<joint>`, all but its name and links. @throws as above.
 urdf::JointSharedPtr readJointElement(const tinyxml2::XMLElement& joint);
+
+/// Whether a length or a position is finite, and at most kLargestValue.
+bool isUsable(const Eigen::Vector3d& v);
+Eigen::Vector3d toEigen(const urdf::Vector3& v);
+/// @throws Error where it is not usable.
+Eigen::Isometry3d toEigen(const urdf::Pose& pose);
 
 }  // namespace fcl_stpbv::detail
