@@ -17,17 +17,13 @@
 #include <tuple>
 
 #include "fcl_stpbv/numbers.h"
-#include "fcl_stpbv/parts/cut_planes.h"
 
 namespace fcl_stpbv::detail {
 namespace {
 
-constexpr double kResolution = 0.15;  // of the excess to be lowered: what is below does not matter yet
-constexpr long kStep = 20;            // hulls that a step counts for at least, so that each search ends
-constexpr long kConfirm = 10000;      // distances to know what the search goes on with
-constexpr long kJudge = 100000;       // distances to know whether a part is within the bound
-
-double excessOf(const PartPtr& part) { return part->excess.lower; }
+constexpr long kStep = 20;        // hulls that a step counts for at least, so that each search ends
+constexpr long kConfirm = 10000;  // distances to know what the search goes on with
+constexpr long kJudge = 100000;   // distances to know whether a part is within the bound
 
 std::size_t worstOf(const PartSearch::Parts& parts) {
   const auto less = [](const PartPtr& a, const PartPtr& b) { return excessOf(a) < excessOf(b); };
@@ -101,61 +97,6 @@ bool PartSearch::isWithin(const Parts& parts) const {
                      [&](const PartPtr& part) { return isWithin(*part, bound_); });
 }
 
-// The best four ways: two by a score of excess and volume, and among the others two by volume alone, which
-// tells a useful cut before the excess does.
-const std::vector<PartSearch::Split>& PartSearch::splits(const PartPtr& part) {
-  constexpr std::size_t kByVolume = 2, kByScore = 2;
-  // Planes that are looked at; the other halves have more volume.
-  const std::size_t scored = exhausted() ? 4 : 48;
-  const auto [place, isNew] = splits_.try_emplace(part.get());
-  std::vector<Split>& ways = place->second;
-  if (!isNew) return ways;
-  kept_.push_back(part);
-  const std::vector<CutPlane> planes = cutPlanes(*part, space_);
-  std::vector<std::pair<CutHulls, std::size_t>> byVolume;
-  for (std::size_t i = 0; i < planes.size(); ++i)
-    if (auto hulls = hullsOfCut(*part, planes[i], space_)) byVolume.push_back({*std::move(hulls), i});
-  const auto lessVolume = [](const auto& a, const auto& b) { return a.first.volume < b.first.volume; };
-  std::stable_sort(byVolume.begin(), byVolume.end(), lessVolume);
-  if (byVolume.size() > scored) byVolume.resize(scored);
-  spent_ += static_cast<long>(planes.size());
-  std::vector<Split> best;  // by score
-  double lastVolume = -1;
-  for (auto& [hulls, i] : byVolume) {
-    const double volume = hulls.volume;
-    const bool another =
-        volume > lastVolume * (1 + 1e-3);  // planes of nearly one place have nearly one volume
-    const bool kept = ways.size() < kByVolume && another;
-    const double left = part->hull.volume > 0 ? volume / part->hull.volume : 1, weight = 0.5 + 0.5 * left;
-    const double bar = best.size() < kByScore ? kInfinity : best.back().score;
-    auto [above, below] = cut(*part, planes[i], space_);
-    if (above.empty() || below.empty()) continue;
-    // A half that is worse than the bar allows rules the plane out.
-    const Measure measure{kResolution * excessOf(part), kept ? kInfinity : bar / weight};
-    const auto up =
-        std::make_shared<Part>(makePart(std::move(above), std::move(hulls.above), space_, measure));
-    ++spent_;
-    if (excessOf(up) > measure.enough) continue;
-    const auto down =
-        std::make_shared<Part>(makePart(std::move(below), std::move(hulls.below), space_, measure));
-    ++spent_;
-    const auto [less, more] = std::minmax({excessOf(up), excessOf(down)});
-    const Split split{(more + 0.5 * less) * weight + 1e-5 * space_.size * left, up, down};
-    if (kept) {
-      ways.push_back(split);
-      lastVolume = volume;
-    } else if (split.score < bar) {
-      if (best.size() == kByScore) best.pop_back();
-      best.insert(std::upper_bound(best.begin(), best.end(), split,
-                                   [](const Split& a, const Split& b) { return a.score < b.score; }),
-                  split);
-    }
-  }
-  ways.insert(ways.end(), best.begin(), best.end());
-  std::sort(ways.begin(), ways.end(), [](const Split& a, const Split& b) { return a.score < b.score; });
-  return ways;
-}
-
 // Their common hull, its excess known up to `measure.enough`: far from the mesh it is found out soon.
 PartPtr PartSearch::join(const PartPtr& a, const PartPtr& b, const Measure& measure) {
   PartPtr& found = joins_[std::minmax(a.get(), b.get())];
@@ -180,7 +121,7 @@ PartSearch::Parts PartSearch::joined(Parts parts, int most, double bound) {
     const double worst = worstExcess(parts);
     for (std::size_t i = 0; i < parts.size(); ++i) {
       for (std::size_t k = i + 1; k < parts.size(); ++k) {
-        const PartPtr tried = join(parts[i], parts[k], {kResolution * worst, best});
+        const PartPtr tried = join(parts[i], parts[k], {kCutResolution * worst, best});
         if (both ? excessOf(tried) >= best : excessOf(tried) > best) continue;
         best = excessOf(tried), both = tried, first = i, second = k;
       }
@@ -204,7 +145,7 @@ std::vector<PartSearch::Line> PartSearch::cutOn(const std::vector<Line>& beam) {
   std::vector<Line> next;
   for (const Line& old : beam) {
     const std::size_t w = worstOf(old.parts);
-    for (const Split& split : splits(old.parts[w])) {
+    for (const PartCut& split : cuts_.of(old.parts[w], exhausted(), spent_)) {
       Parts parts = old.parts;
       parts[w] = split.up;
       parts.push_back(split.down);
@@ -268,7 +209,7 @@ PartSearch::Parts PartSearch::byBeam(const Parts& start, int most) {
 PartSearch::Parts PartSearch::byBestCuts(Parts parts, int most) {
   while (!exhausted() && !isWithin(parts) && parts.size() < manyParts(most)) {
     const std::size_t w = worstOf(parts);
-    const std::vector<Split>& ways = splits(parts[w]);
+    const std::vector<PartCut>& ways = cuts_.of(parts[w], exhausted(), spent_);
     if (ways.empty()) break;
     parts[w] = ways.front().up;
     parts.push_back(ways.front().down);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "fcl_stpbv/parts/part.h"
+#include "fcl_stpbv/parts/part_cuts.h"
 
 namespace fcl_stpbv::detail {
 
@@ -20,7 +21,7 @@ class PartSearch {
   using Parts = std::vector<PartPtr>;
 
   /// For at most `most` parts.
-  PartSearch(const PartSpace& space, int most) : space_(space), most_(most) {}
+  PartSearch(const PartSpace& space, int most) : space_(space), most_(most), cuts_(space) {}
 
   /// Sets the goal: as few parts as possible with an excess within `bound` (m). The cached measurements stay
   /// valid.
@@ -42,10 +43,6 @@ class PartSearch {
   static bool isBetter(const Parts& a, const Parts& b);
 
  private:
-  struct Split {
-    double score;
-    PartPtr up, down;
-  };
   /// A set of parts that together cover the mesh, and measures of its quality.
   struct Line {
     Parts parts;
@@ -55,7 +52,6 @@ class PartSearch {
   void confirm(const Parts& parts) const;
   bool isWithin(Part& part, double bound) const;
   bool isWithin(const Parts& parts) const;
-  const std::vector<Split>& splits(const PartPtr& part);
   std::vector<Line> cutOn(const std::vector<Line>& beam);
   PartPtr join(const PartPtr& a, const PartPtr& b, const Measure& measure);
   Parts joined(Parts parts, int most, double bound);
@@ -70,9 +66,9 @@ class PartSearch {
   int most_;
   double bound_ = 0;
   long work_ = 0, spent_ = 0;
-  std::map<const Part*, std::vector<Split>> splits_;
+  PartCuts cuts_;
   std::map<std::pair<const Part*, const Part*>, PartPtr> joins_;
-  Parts kept_;  // all parts ever made; they are kept so that addresses stay unique
+  Parts kept_;  // the parts in joins_, so that addresses stay unique
 };
 
 }  // namespace fcl_stpbv::detail

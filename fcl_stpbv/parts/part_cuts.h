@@ -1,0 +1,38 @@
+// The best ways to cut a part in two.
+#pragma once
+
+#include <map>
+#include <vector>
+
+#include "fcl_stpbv/parts/part.h"
+
+namespace fcl_stpbv::detail {
+
+/// The excess of a part, as far as it is known (m).
+inline double excessOf(const PartPtr& part) { return part->excess.lower; }
+
+/// Of the excess to be lowered: what is below does not matter yet.
+constexpr double kCutResolution = 0.15;
+
+struct PartCut {
+  double score;  ///< of excess and volume, the less the better
+  PartPtr up, down;
+};
+
+/// Finds them once for each part.
+class PartCuts {
+ public:
+  explicit PartCuts(const PartSpace& space) : space_(space) {}
+
+  /// The best four ways: two by a score of excess and volume, and among the others two by volume alone, which
+  /// tells a useful cut before the excess does. Where it must be `quick`, few planes are tried. Adds the
+  /// number of hulls to `spent`.
+  const std::vector<PartCut>& of(const PartPtr& part, bool quick, long& spent);
+
+ private:
+  const PartSpace& space_;
+  std::map<const Part*, std::vector<PartCut>> cuts_;
+  std::vector<PartPtr> kept_;  // the parts in cuts_, so that addresses stay unique
+};
+
+}  // namespace fcl_stpbv::detail
