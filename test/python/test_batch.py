@@ -1,5 +1,6 @@
 """Batches: pure pieces, results that do not depend on who did which job, what goes wrong with one job or its input."""
 import contextlib
+import functools
 import itertools
 import json
 import os
@@ -16,6 +17,7 @@ import numpy as np
 import pytest
 
 import fcl_stpbv
+import warm_start
 
 DATA = pathlib.Path(os.environ.get("FCL_STPBV_DATA", pathlib.Path(__file__).parents[2] / "data"))
 HRP2 = DATA / "hrp2_style"
@@ -25,10 +27,14 @@ MESH_TO_STPBV = pathlib.Path(fcl_stpbv.__file__).parents[2] / "bin/mesh_to_stpbv
 PROVE = ["prove", ARM, "--budget", "10", "--boxes", "500", "--descents", "1"]  # several rounds for most pairs
 
 
-def batch(*arguments, status=0, **more):
+def cold_start(*arguments, **more):
+    """Runs a batch in an interpreter of its own."""
+    return subprocess.run([sys.executable, "-B", "-m", "fcl_stpbv.batch", *map(str, arguments)], capture_output=True, text=True, timeout=120, **more)
+
+
+def batch(*arguments, status=0, start=functools.partial(warm_start.run, "fcl_stpbv.batch", timeout=120), **more):
     """Runs a batch; its summary, or what it complains about."""
-    done = subprocess.run([sys.executable, "-B", "-m", "fcl_stpbv.batch", *map(str, arguments)], capture_output=True, text=True, timeout=120,
-                          **more)
+    done = start(*arguments, **more)
     assert done.returncode == status, done.stderr
     assert "Traceback" not in done.stderr
     return done.stdout if status == 0 else done.stderr
@@ -43,7 +49,7 @@ def arm():
 def proofs(tmp_path_factory):
     """The results of one process for the arm's pairs."""
     path = tmp_path_factory.mktemp("one") / "proofs.jsonl"
-    batch(*PROVE, "--jobs", 1, "-o", path)
+    batch(*PROVE, "--jobs", 1, "-o", path, start=cold_start)
     return path
 
 
@@ -53,10 +59,10 @@ def test_what_loading_warns_of_is_told_once_by_whoever_begins(tmp_path):
     joint = "<joint name='ghost_joint' type='fixed'><parent link='{}'/><child link='ghost'/></joint></robot>"
     text = ARM.read_text()
     urdf.write_text(text.replace("</robot>", ghost + joint.format(re.findall('<link name="([^"]*)"', text)[0])))
-    command = [sys.executable, "-B", "-m", "fcl_stpbv.batch", "sample", urdf, "--blocks", "4", "--count", "1", "--jobs"]
+    command = ["sample", urdf, "--blocks", "4", "--count", "1", "--jobs"]
     told = f'fcl_stpbv.batch: {urdf}: 1 link has visual shapes but no collision shape, so nothing checks it: "ghost".\n'
     for more, expected in (["1"], told), (["2"], told), (["1", "-q"], ""):
-        done = subprocess.run([*command, *more, "-o", tmp_path / "-".join(more)], capture_output=True, text=True, timeout=120)
+        done = cold_start(*command, *more, "-o", tmp_path / "-".join(more))
         assert (done.returncode, done.stderr) == (0, expected)
 
 
@@ -229,7 +235,7 @@ def test_shards_go_on_from_merged_results(proofs, tmp_path):
     for number in range(8):  # of a round that several shards have, the next one is known after merging
         for i, part in enumerate(parts):
             batch(*PROVE, "--shard", f"{i}/2", "--merge", tmp_path / "first", "-o", part)
-        merged = subprocess.run([sys.executable, "-m", "fcl_stpbv.batch", *map(str, PROVE), "--merge", *parts, "-o", tmp_path / "all"])
+        merged = warm_start.run("fcl_stpbv.batch", *PROVE, "--merge", *parts, "-o", tmp_path / "all", timeout=120)
         for part in parts:
             part.unlink()
         shutil.move(tmp_path / "all", tmp_path / "first")
@@ -265,7 +271,7 @@ def test_two_processes_find_what_one_does(tmp_path):
     task = [*("postures", ARM, TOOLS / "reach.json"), "--starts", 2]
     for name, arguments in (("sample", sample), ("postures", task)):
         batch(*arguments, "--jobs", 1, "-o", tmp_path / f"{name}1")
-        batch(*arguments, "--jobs", 2, "-o", tmp_path / f"{name}2")
+        batch(*arguments, "--jobs", 2, "-o", tmp_path / f"{name}2", start=cold_start)
         assert (tmp_path / f"{name}1").read_bytes() == (tmp_path / f"{name}2").read_bytes()
 
 
@@ -289,12 +295,11 @@ def cube(path, uri, name=None):
     return path
 
 
-@pytest.mark.parametrize("jobs", [1, 2])
-def test_the_buffers_of_a_gltf_travel_from_below_its_folder(tmp_path, jobs):
+def test_the_buffers_of_a_gltf_travel_from_below_its_folder(tmp_path, here_or_there):
     places = {"a": ("a.bin",), "b": ("sub/b.bin",), "c": ("./sub/../sub/deep/c.bin", "sub/deep/c.bin"),
               "d": ("sub%20of/d%2525.bin", "sub of/d%25.bin"), "e": ("volume/e.bin",), "f": ("sub\\f.bin", "sub/f.bin"), "g": ("as%20is.bin",)}
     meshes = [cube(tmp_path / f"{name}.gltf", *place) for name, place in places.items()]
-    batch("convert", *meshes, "--volumes", tmp_path / "volumes", "--jobs", jobs, "-o", tmp_path / "out")
+    batch("convert", *meshes, "--volumes", tmp_path / "volumes", *here_or_there, "-o", tmp_path / "out")
     for name in places:
         assert len(fcl_stpbv.StpBv.load(str(tmp_path / f"volumes/{name}.stpbv")).vertices) == 8
     limits = '<axis xyz="0 0 1"/><limit lower="-1" upper="1" effort="1" velocity="1"/>'
@@ -302,7 +307,7 @@ def test_the_buffers_of_a_gltf_travel_from_below_its_folder(tmp_path, jobs):
         <link name="a"><collision><geometry><mesh filename="b.gltf"/></geometry></collision></link><link name="m"/><link name="b"><collision><geometry><sphere radius="0.1"/></geometry></collision></link>
         <joint name="i" type="revolute"><parent link="a"/><child link="m"/><origin xyz="3 0 0"/>{limits}</joint>
         <joint name="j" type="revolute"><parent link="m"/><child link="b"/><origin xyz="0.5 0 0"/>{limits}</joint></robot>""")
-    batch("sample", tmp_path / "two.urdf", "--blocks", 3, "--count", 2, "--jobs", jobs, "-o", tmp_path / "samples")
+    batch("sample", tmp_path / "two.urdf", "--blocks", 3, "--count", 2, *here_or_there, "-o", tmp_path / "samples")
 
 
 def test_no_buffer_is_read_from_elsewhere_and_a_damaged_gltf_fails_its_own_job(tmp_path):
@@ -358,13 +363,12 @@ def test_a_mesh_travels_under_any_name(tmp_path, name):
         assert pathlib.Path(path).read_bytes() == (tmp_path / name).read_bytes() and str(folder) in path
 
 
-@pytest.mark.parametrize("jobs", [1, 2])
-def test_a_bad_mesh_fails_its_own_job_and_no_other(tmp_path, jobs):
+def test_a_bad_mesh_fails_its_own_job_and_no_other(tmp_path, here_or_there):
     bad, missing = tmp_path / "bad.stl", tmp_path / "missing.stl"
     bad.write_bytes(b"solid nothing")
     good = [HRP2 / "meshes/BODY.dae", HRP2 / "meshes/LARM_LINK0.stl"]
     arguments = ["convert", bad, *good, missing, "--volumes", tmp_path / "volumes", "-o", tmp_path / "all"]
-    message = batch(*arguments, "--jobs", jobs, status=1)
+    message = batch(*arguments, *here_or_there, status=1)
     assert str(bad) in message and str(missing) in message and "fcl_stpbv_" not in message
     assert sorted(path.name for path in (tmp_path / "volumes").iterdir()) == ["BODY.stpbv", "LARM_LINK0.stpbv"]
     for mesh in good:
@@ -382,7 +386,7 @@ def test_a_full_folder_for_temporary_files_is_no_fault_of_the_meshs(tmp_path, ro
     triangles["corners"] = np.random.default_rng(1).normal(size=(4, 3, 3))
     (tmp_path / "few.stl").write_bytes(bytes(80) + (4).to_bytes(4, "little") + triangles.tobytes())
     convert = ["convert", "few.stl", "--volumes", "v", "--jobs", 1, "-o", "out"]
-    message = batch(*convert, status=1, cwd=tmp_path,
+    message = batch(*convert, status=1, cwd=tmp_path, start=cold_start,
                     preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (room, resource.RLIM_INFINITY)))
     assert message.startswith("fcl_stpbv.batch: ['few.stl'] has no result: OSError: ") and message.count("\n") == 1, message
     assert "1 volumes, 0 failed" in batch(*convert, cwd=tmp_path)
@@ -433,19 +437,17 @@ def test_another_cluster_on_this_machine_goes_unnoticed(tmp_path):
         with contextlib.suppress(OSError):  # it may be taken already
             taken.bind(("", 8787))  # where a Dask scheduler serves its pages unless told otherwise
             taken.listen()
-        done = subprocess.run([sys.executable, "-B", "-m", "fcl_stpbv.batch", *map(str, PROVE), "--jobs", "2", "-o", tmp_path / "proofs.jsonl"],
-                              capture_output=True, text=True, timeout=120)
+        done = cold_start(*PROVE, "--jobs", 2, "-o", tmp_path / "proofs.jsonl")
     assert done.returncode == 0 and "8787" not in done.stderr and "Warning" not in done.stderr, done.stderr
 
 
-@pytest.mark.parametrize("jobs", [1, 2])
-def test_a_volume_that_is_there_stays(tmp_path, jobs):
+def test_a_volume_that_is_there_stays(tmp_path, here_or_there):
     volumes, mesh = tmp_path / "volumes", tmp_path / "L.stl"
     shutil.copy(HRP2 / "meshes/LARM_LINK0.stl", mesh)
     volumes.mkdir()
     for name in ("L.stpbv", "L.tmp", "other"):
         (volumes / name).write_text("mine")
-    convert = ["convert", mesh, HRP2 / "meshes/BODY.dae", "--volumes", volumes, "-o", tmp_path / "out", "--jobs", jobs]
+    convert = ["convert", mesh, HRP2 / "meshes/BODY.dae", "--volumes", volumes, "-o", tmp_path / "out", *here_or_there]
     message = batch(*convert, status=2)
     assert f"{volumes}/L.stpbv: exists already and is another volume" in message and message.count("\n") == 1
     (volumes / "L.stpbv").unlink()
@@ -480,11 +482,10 @@ def test_a_file_is_written_whole_or_not_at_all(tmp_path):
     assert (tmp_path / "folder/link").is_symlink() and len(list(tmp_path.rglob("*"))) == 3
 
 
-@pytest.mark.parametrize("jobs", [1, 2])
-def test_a_task_that_leaves_nothing_to_check_fails_its_own_job_and_no_other(tmp_path, jobs):
+def test_a_task_that_leaves_nothing_to_check_fails_its_own_job_and_no_other(tmp_path, here_or_there):
     task, nothing = TOOLS / "reach.json", tmp_path / "nothing.json"
     nothing.write_text(json.dumps({**json.loads(task.read_text()), "collisions": {"self": False}}))
-    message = batch("postures", ARM, nothing, task, "--jobs", jobs, "-o", tmp_path / "out", status=1)
+    message = batch("postures", ARM, nothing, task, *here_or_there, "-o", tmp_path / "out", status=1)
     assert "no pair of bodies is checked" in message
     records = {record["job"][0]: record for record in map(json.loads, (tmp_path / "out").read_text().splitlines()[1:])}
     assert records[str(task)]["feasible"] and "error" in records[str(nothing)] and len(records) == 2
@@ -713,5 +714,5 @@ def test_without_dask_one_process_works_and_more_say_what_is_missing(tmp_path):
     (tmp_path / "dask.py").write_text("raise ImportError")
     without = {**os.environ, "PYTHONPATH": f"{tmp_path}:{os.environ['PYTHONPATH']}"}
     sample = ["sample", ARM, "--blocks", 2, "--count", 5, "-o", tmp_path / "out"]
-    assert "python3-distributed" in batch(*sample, "--jobs", 2, status=2, env=without)
-    batch(*sample, "--jobs", 1, env=without)
+    assert "python3-distributed" in batch(*sample, "--jobs", 2, status=2, start=cold_start, env=without)
+    batch(*sample, "--jobs", 1, start=cold_start, env=without)

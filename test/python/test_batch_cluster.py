@@ -12,6 +12,8 @@ import time
 
 import pytest
 
+import warm_start
+
 pytest.importorskip("distributed", reason="needs python3-distributed (tools/install_packages)")
 
 DATA = pathlib.Path(os.environ.get("FCL_STPBV_DATA", pathlib.Path(__file__).parents[2] / "data"))
@@ -19,43 +21,13 @@ ARM = DATA.parent / "test/tools/six_joint_arm.urdf"
 SAMPLE = ["sample", ARM, "--blocks", 60, "--count", 400]
 
 
-def start(*arguments):
-    return subprocess.Popen([sys.executable, "-B", "-m", *map(str, arguments)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+def start(*arguments, program=warm_start.Program, **more):
+    return program("fcl_stpbv.batch", *arguments, **more)
 
 
-class Cluster:
-    def __init__(self, folder):
-        with socket.socket() as probe:
-            probe.bind(("127.0.0.1", 0))
-            self.port = probe.getsockname()[1]
-        self.address, self.folder, self.processes = f"tcp://127.0.0.1:{self.port}", folder, []
-        self.start_scheduler()
-        self.workers = [self.worker(), self.worker()]
-
-    def start_scheduler(self):
-        self.scheduler = self.add("distributed.cli.dask_scheduler", "--host", "127.0.0.1", "--port", self.port, "--no-dashboard")
-
-    def worker(self):
-        return self.add("distributed.cli.dask_worker", self.address, "--no-nanny", "--nthreads", 1, "--no-dashboard",
-                        "--local-directory", self.folder)
-
-    def add(self, *arguments):
-        process = subprocess.Popen([sys.executable, "-B", "-m", *map(str, arguments)], stdout=subprocess.DEVNULL,
-                                   stderr=subprocess.DEVNULL)
-        self.processes.append(process)
-        return process
-
-    def stop(self):
-        for process in self.processes:
-            process.kill()
-            process.wait()
-
-
-@pytest.fixture(scope="module")
-def cluster(tmp_path_factory):
-    cluster = Cluster(tmp_path_factory.mktemp("cluster"))
-    yield cluster
-    cluster.stop()
+def cold_start(module, *arguments):
+    """As a user starts it, in an interpreter of its own."""
+    return subprocess.Popen([sys.executable, "-B", "-m", module, *map(str, arguments)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
 
 
 def many_jobs(kind, folder):
@@ -88,16 +60,16 @@ class Batch:
 
     def __init__(self, kind, folder):
         self.folder, self.arguments = folder, many_jobs(kind, folder)
-        self.status, self.expected, self.volumes = self.run("expected", "--jobs", 1)
+        self.status, self.expected, self.volumes = self.run("expected", "--jobs", 1, program=cold_start)
         self.jobs = self.expected.count(b"\n") - 1
         assert self.jobs >= 50
 
-    def start(self, name, *more):
+    def start(self, name, *options, **more):
         self.out = self.folder / name
-        return start("fcl_stpbv.batch", *self.arguments, *more, "-o", self.out)
+        return start(*self.arguments, *options, "-o", self.out, **more)
 
-    def run(self, name, *more):
-        process = self.start(name, *more)
+    def run(self, name, *options, **more):
+        process = self.start(name, *options, **more)
         _, message = process.communicate(timeout=100)
         assert "Traceback" not in message
         return process.returncode, self.out.read_bytes(), self.files()
@@ -114,7 +86,7 @@ def some(request, tmp_path_factory):
 @pytest.fixture(scope="module")
 def expected(tmp_path_factory):
     path = tmp_path_factory.mktemp("one") / "out"
-    assert start("fcl_stpbv.batch", *SAMPLE, "--jobs", 1, "-o", path).wait(timeout=100) == 0
+    assert start(*SAMPLE, "--jobs", 1, "-o", path, program=cold_start).wait(timeout=100) == 0
     return path.read_bytes()
 
 
@@ -170,22 +142,23 @@ def test_a_connection_that_cannot_be_made_again_is_a_scheduler_that_is_gone(clus
 
 def test_a_run_that_is_interrupted_keeps_what_is_done(expected, tmp_path):
     out = tmp_path / "out"
-    run = start("fcl_stpbv.batch", *SAMPLE, "--jobs", 1, "-o", out)
+    run = start(*SAMPLE, "--jobs", 1, "-o", out)
     wait_for_lines(out, 5, run)
-    second = start("fcl_stpbv.batch", *SAMPLE, "--jobs", 1, "-o", out)
-    assert second.wait(timeout=60) == 2 and "another run is writing" in second.stderr.read()
+    second = start(*SAMPLE, "--jobs", 1, "-o", out)
+    _, message = second.communicate(timeout=60)
+    assert second.returncode == 2 and "another run is writing" in message
     run.send_signal(signal.SIGINT)
     _, message = run.communicate(timeout=60)
     assert run.returncode == 130 and message == "fcl_stpbv.batch: interrupted; run again to go on\n"
     assert expected.startswith(out.read_bytes()[:out.read_bytes().index(b"\n") + 1]) and out.read_bytes().count(b"\n") < 61
-    assert start("fcl_stpbv.batch", *SAMPLE, "--jobs", 1, "-o", out).wait(timeout=60) == 0
+    assert start(*SAMPLE, "--jobs", 1, "-o", out).wait(timeout=60) == 0
     assert out.read_bytes() == expected
 
 
 @pytest.mark.parametrize("address", ["nonsense", "http://127.0.0.1:1", "tls://127.0.0.1:1"])
 def test_an_address_that_cannot_be_a_schedulers_is_refused_at_once(address, tmp_path):
     before = time.monotonic()
-    run = start("fcl_stpbv.batch", *SAMPLE, "--scheduler", address, "-o", tmp_path / "out")
+    run = start(*SAMPLE, "--scheduler", address, "-o", tmp_path / "out")
     _, message = run.communicate(timeout=60)
     assert run.returncode == 2 and f"--scheduler {address}: " in message and message.count("\n") == 1, message
     assert time.monotonic() - before < 15  # Dask alone took 30 s to give up

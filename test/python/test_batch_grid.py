@@ -88,12 +88,12 @@ def test_places_start_from_their_neighbours_or_from_the_tasks_starts_as_they_say
     assert {"neighbour", 0} <= ways
 
 
-def test_a_grid_gives_the_same_bytes_in_shards_and_in_two_processes(grid, tmp_path):
+def test_a_grid_gives_the_same_bytes_in_shards_and_in_other_processes(grid, tmp_path, cluster):
     for i in (2, 0, 1):
         ask(tmp_path, f"part{i}", "--shard", f"{i}/3")
     ask(tmp_path, "merged", "--merge", *(tmp_path / f"part{i}" for i in (1, 2, 0)))
-    ask(tmp_path, "two", "--jobs", 2)
-    assert (tmp_path / "merged").read_bytes() == (tmp_path / "two").read_bytes() == grid.read_bytes()
+    ask(tmp_path, "others", "--scheduler", cluster.address)
+    assert (tmp_path / "merged").read_bytes() == (tmp_path / "others").read_bytes() == grid.read_bytes()
 
 
 def test_without_neighbours_only_the_tasks_own_starts_count(grid, tmp_path):

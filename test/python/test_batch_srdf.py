@@ -3,7 +3,6 @@ import json
 import xml.etree.ElementTree
 
 import numpy as np
-import pytest
 
 import fcl_stpbv
 from test_batch import ARM, batch
@@ -88,11 +87,10 @@ def test_what_is_out_of_reach_is_proven_clear_and_what_is_hit_is_not(tmp_path):
     assert np.all(np.isfinite(q)) and len(q) == 6
 
 
-@pytest.mark.parametrize("jobs", [1, 2])
-def test_obstacles_travel_with_the_robot(tmp_path, jobs):
+def test_obstacles_travel_with_the_robot(tmp_path, here_or_there):
     around = scene(tmp_path / "scene.urdf", near="0.5 0 0.26")
     sample = ["sample", ARM, "--obstacles", around, "--blocks", 3, "--count", 40]
-    batch(*sample, "--jobs", jobs, "-o", tmp_path / "out")
+    batch(*sample, *here_or_there, "-o", tmp_path / "out")
     search = fcl_stpbv.PairSearch(str(ARM), str(around))
     records = [json.loads(line) for line in (tmp_path / "out").read_text().splitlines()[1:]]
     assert [record["least"] for record in records] == [[pair[1] for pair in search.sample(1, block, 40)] for block in range(3)]

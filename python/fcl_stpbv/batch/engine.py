@@ -1,10 +1,7 @@
 """Runs the jobs of a batch, one after the other in this process, or on a Dask cluster. The results are the same."""
-import asyncio
 import collections
-import concurrent.futures
 import contextlib
 import json
-import logging
 import os
 import pickle
 import sys
@@ -123,6 +120,10 @@ def local_cluster(workers):
 @contextlib.contextmanager
 def connected(scheduler, workers):
     """A Dask client: for the cluster at this address, or for a new one on this machine."""
+    import asyncio  # here, as these three take half of the time of a start
+    import concurrent.futures
+    import logging
+
     try:
         import dask
         import distributed
