@@ -77,25 +77,37 @@ long double triangles(const T& s, const T& t) {
   return least;
 }
 
-std::vector<T> placed(const TriangleMesh& mesh, const Eigen::Isometry3d& pose) {
-  std::vector<T> all;
+// A triangle and a ball about it.
+struct Placed {
+  T corners;
+  V centre;
+  long double radius;
+};
+
+std::vector<Placed> placed(const TriangleMesh& mesh, const Eigen::Isometry3d& pose) {
+  std::vector<Placed> all;
   for (const auto& triangle : mesh.triangles) {
     T t;
     for (std::size_t k = 0; k < 3; ++k)
       t[k] = pose.linear().cast<long double>() *
                  mesh.vertices[static_cast<std::size_t>(triangle[k])].cast<long double>() +
              pose.translation().cast<long double>();
-    all.push_back(t);
+    const V centre = (t[0] + t[1] + t[2]) / 3;
+    all.push_back(
+        {t, centre, std::max({(t[0] - centre).norm(), (t[1] - centre).norm(), (t[2] - centre).norm()})});
   }
   return all;
 }
 
+// Triangles whose balls are farther apart than two others are passed over.
 long double bruteForce(const TriangleMesh& a, const Eigen::Isometry3d& poseA, const TriangleMesh& b,
                        const Eigen::Isometry3d& poseB) {
-  const std::vector<T> first = placed(a, poseA), second = placed(b, poseB);
+  const std::vector<Placed> first = placed(a, poseA), second = placed(b, poseB);
   long double least = 1e30L;
-  for (const T& s : first)
-    for (const T& t : second) least = std::min(least, triangles(s, t));
+  for (const Placed& s : first)
+    for (const Placed& t : second)
+      if ((s.centre - t.centre).norm() <= least + s.radius + t.radius + 1e-15L)
+        least = std::min(least, triangles(s.corners, t.corners));
   return least;
 }
 
