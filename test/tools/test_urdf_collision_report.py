@@ -469,11 +469,12 @@ class Report(unittest.TestCase):
         self.assertIn("LARM_JOINT3=", done.stdout)
 
     def test_a_reason_of_the_srdf_counts_in_any_case_and_with_blanks_around_it(self):
-        for reason, usual in (("never", "Never"), ("NEVER ", "Never"), (" adjacent", "Adjacent")):
-            wrong = self.put("wrong.srdf", '<robot name="hrp2_style"><disable_collisions link1="CHEST_LINK1" link2="LARM_LINK5" '
-                             f'reason="{reason}"/></robot>')
-            done = self.run_tool(ROBOT + ".urdf", "--srdf", wrong, "--samples", "200")
-            self.assertIn(f"The SRDF leaves out CHEST_LINK1 - LARM_LINK5 as {usual}; found: sometimes", done.stdout)
+        reasons = {"LARM_LINK5": ("never", "Never"), "RARM_LINK5": ("NEVER ", "Never"), "LARM_LINK6": (" adjacent", "Adjacent")}
+        wrong = self.put("wrong.srdf", '<robot name="hrp2_style">' + "".join(
+            f'<disable_collisions link1="CHEST_LINK1" link2="{link}" reason="{reason}"/>' for link, (reason, _) in reasons.items()) + "</robot>")
+        done = self.run_tool(ROBOT + ".urdf", "--srdf", wrong, "--samples", "200")
+        for link, (_, usual) in reasons.items():
+            self.assertIn(f"The SRDF leaves out CHEST_LINK1 - {link} as {usual}; found: sometimes", done.stdout)
 
     def test_top_cuts_every_list_of_the_text_and_says_what_is_left(self):
         links = ["CHEST_LINK1"] + [f"{side}{limb}" for side in "LR" for limb in ("ARM_LINK5", "ARM_LINK6", "LEG_LINK3")]
