@@ -1,11 +1,13 @@
 // Collision rows for a controller in Python, and what was found at each row.
 #include <map>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <tuple>
 #include <utility>
 #include <vector>
 
+#include "alone.h"
 #include "fcl_stpbv/robot/velocity_damper.h"
 #include "robot.h"
 #include "words.h"
@@ -50,7 +52,7 @@ class PythonDamper {
     requireNumbers(q.value, constraints_.columns(), "q");
     requireNumbers(qd.value, constraints_.columns(), "qd");
     requireUsable(qd.value, "qd");
-    const py::gil_scoped_release others;
+    const Alone alone(inUse_);
     damper_.update(q.value, qd.value);
     updated_ = true;
     const auto count = static_cast<Eigen::Index>(damper_.near().size());
@@ -60,18 +62,29 @@ class PythonDamper {
     return {A, std::move(b)};
   }
 
-  const VelocityDamper& updated() const {
-    if (!updated_) throw Error("VelocityDamper: has no rows before the first update(q, qd)");
-    return damper_;
+  /// A copy of what `part` finds in the damper.
+  template <class Part>
+  auto of(const Part& part) const {
+    const Alone alone(inUse_);
+    return part(damper_);
   }
-  const VelocityDamper& damper() const { return damper_; }
-  RowAnswer answer(int row) const { return updated(), constraints_.answer(row); }
+  /// The same, @throws Error before the first update.
+  template <class Part>
+  auto updated(const Part& part) const {
+    const Alone alone(inUse_);
+    if (!updated_) throw Error("VelocityDamper: has no rows before the first update(q, qd)");
+    return part(damper_);
+  }
+  RowAnswer answer(int row) const {
+    return updated([&](const VelocityDamper&) { return constraints_.answer(row); });
+  }
   int rows() const { return constraints_.rows(); }
 
  private:
   CollisionConstraints constraints_;
   VelocityDamper damper_;
   bool updated_ = false;
+  mutable std::mutex inUse_;
 };
 
 }  // namespace
@@ -196,26 +209,43 @@ void addDampers(py::module_& module, py::class_<PythonRobot>& robotClass) {
       .def("update", &PythonDamper::update, py::arg("q"), py::arg("qd"),
            "(A, b): the rows within their influence, `near`, at q, while q moves with velocity qd.")
       .def_property_readonly(
-          "A", [](const PythonDamper& damper) { return PythonDamper::Matrix(damper.updated().A()); },
+          "A",
+          [](const PythonDamper& damper) {
+            return damper.updated([](const VelocityDamper& of) { return PythonDamper::Matrix(of.A()); });
+          },
           "Left sides of all rows, one a row of the robot.")
       .def_property_readonly(
-          "b", [](const PythonDamper& damper) { return damper.updated().b(); },
+          "b",
+          [](const PythonDamper& damper) {
+            return damper.updated([](const VelocityDamper& of) { return of.b(); });
+          },
           "Right sides of all rows (m/s or m/s^2); -inf beyond their influence.")
       .def_property_readonly(
-          "d", [](const PythonDamper& damper) { return damper.updated().d(); },
+          "d",
+          [](const PythonDamper& damper) {
+            return damper.updated([](const VelocityDamper& of) { return of.d(); });
+          },
           "Distances at the last update (m).")
       .def_property_readonly(
-          "near", [](const PythonDamper& damper) { return damper.updated().near(); },
+          "near",
+          [](const PythonDamper& damper) {
+            return damper.updated([](const VelocityDamper& of) { return of.near(); });
+          },
           "Which rows update() gave, as indices into Robot.rows.")
       .def("answer", &PythonDamper::answer, py::arg("row"),
            "What the last update found for a row: points, normal; their velocities but at level "
            "\"velocity\".")
       .def(
-          "damping", [](const PythonDamper& damper, int row) { return damper.damper().damping(row); },
+          "damping",
+          [](const PythonDamper& damper, int row) {
+            return damper.of([&](const VelocityDamper& of) { return of.damping(row); });
+          },
           py::arg("row"), "xi of a row: its own, or what it got on entering, until it leaves (m/s).")
       .def(
           "barrier_gain",
-          [](const PythonDamper& damper, int row) { return damper.damper().barrierGain(row); },
+          [](const PythonDamper& damper, int row) {
+            return damper.of([&](const VelocityDamper& of) { return of.barrierGain(row); });
+          },
           py::arg("row"), "g of a row, likewise (1/s).")
       .def("__repr__", [](const PythonDamper& damper) {
         return "<VelocityDamper: " + std::to_string(damper.rows()) + " rows>";

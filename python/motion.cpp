@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "alone.h"
 #include "fcl_stpbv/number_check.h"
 #include "robot.h"
 
@@ -41,7 +42,7 @@ bool PythonRobot::isMotionFree(const Given& givenQ0, const Given& givenQ1, doubl
                         &q1 = checked(givenQ1, "q1", kinematics_->size());
   requireMargin(margin);
   MotionCheck& check = motions();
-  const py::gil_scoped_release others;
+  const Alone alone(motionsInUse_);
   return check.isMotionFree(q0, q1, margin);
 }
 
@@ -50,7 +51,7 @@ std::optional<Eigen::Index> PythonRobot::firstUnprovenMotion(GivenRows given, do
   if (q.rows() < 2) throw Error("q: has " + std::to_string(q.rows()) + " way points, a motion needs two");
   requireMargin(margin);
   MotionCheck& check = motions();
-  const py::gil_scoped_release others;
+  const Alone alone(motionsInUse_);
   Interrupt interrupt;
   for (Eigen::Index i = 0; i + 1 < q.rows(); ++i, interrupt())
     if (!check.isMotionFree(q.row(i).transpose(), q.row(i + 1).transpose(), margin)) return i;
@@ -64,7 +65,7 @@ PythonMotionBracket PythonRobot::firstContact(const Given& givenQ0, const Given&
   requireMargin(margin);
   detail::requireNumber("tolerance", tolerance, 1e-12, 1);
   MotionCheck& check = motions();
-  const py::gil_scoped_release others;
+  const Alone alone(motionsInUse_);
   const MotionBracket found = check.firstContact(q0, q1, {margin, tolerance});
   PythonMotionBracket result{found.verdict, found.from, {}, {}};
   if (found.verdict == MotionVerdict::contact) result.contactAt = found.until;
@@ -79,7 +80,7 @@ std::tuple<Eigen::VectorXd, Eigen::VectorXd, bool> PythonRobot::closestApproach(
                         &q1 = checked(givenQ1, "q1", kinematics_->size());
   requireLength(precision, "precision");
   MotionCheck& check = motions();
-  const py::gil_scoped_release others;
+  const Alone alone(motionsInUse_);
   std::vector<Approach> best;
   const bool proven = check.closest(q0, q1, precision, 0, best);
   constexpr double kNone = std::numeric_limits<double>::infinity();

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <set>
 #include <string>
@@ -327,6 +328,7 @@ class PythonRobot {
   std::unique_ptr<CollisionConstraints> constraints_;
   std::unique_ptr<CollisionChecker> checker_;  // null where no pair is checked
   std::unique_ptr<MotionCheck> motions_;       // null until a motion is asked about
+  std::mutex motionsInUse_;                    // Python's lock does not guard them
 };
 
 }  // namespace fcl_stpbv

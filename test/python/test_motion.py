@@ -3,6 +3,7 @@ import math
 import os
 import pathlib
 import pickle
+from concurrent.futures import ThreadPoolExecutor
 from typing import Any
 
 import numpy as np
@@ -275,6 +276,51 @@ def test_motions_leave_other_answers_alone():
     np.testing.assert_allclose(robot.distances(q0), before, rtol=0, atol=1e-14)
     found, alone = robot.first_contact(q0, q1), other.first_contact(q0, q1)  # what is remembered changes the time only
     assert (found.verdict, found.row) == (alone.verdict, alone.row) and found.free_until == pytest.approx(alone.free_until, abs=1e-4)
+
+
+def test_two_threads_get_the_answers_of_one():
+    robot, random = humanoid(), np.random.default_rng(11)
+    standing = robot.configuration("half_sitting")
+    motions = [(near(robot, standing, random, 0.1), near(robot, standing, random, 0.1)) for _ in range(200)]
+
+    def first_contacts(chosen):
+        found = [robot.first_contact(*motion, margin=0.005) for motion in chosen]
+        return [(one.verdict, one.row) for one in found]
+
+    def free(chosen):
+        return [robot.is_motion_free(*motion, margin=0.005) for motion in chosen]
+
+    def paths(chosen):
+        return [robot.first_unproven_motion(motion, margin=0.005) for motion in chosen]
+
+    def approaches(chosen):
+        return [robot.closest_approach(*motion)[2] for motion in chosen]
+
+    asks = (free, first_contacts, paths, lambda chosen: approaches(chosen[:20]))
+    alone = [ask(motions) for ask in asks]
+    assert min(alone[0].count(True), alone[0].count(False)) >= 20
+    with ThreadPoolExecutor(2) as pool:
+        together = [pool.submit(ask, motions) for ask in 2 * asks]
+        assert [one.result() for one in together] == 2 * alone
+
+
+def test_two_threads_may_use_one_damper():
+    robot = humanoid()
+    standing, other = robot.configuration("half_sitting"), near(robot, robot.configuration("half_sitting"), np.random.default_rng(2), 0.1)
+    damper = fcl_stpbv.VelocityDamper(robot, influence=0.05, security=0.01, damping=0.5, headroom=-1.0)
+    still = np.zeros(len(standing))
+    alone = {q.tobytes(): damper.update(q, still) for q in (standing, other)}
+    rows = [A.shape for A, _ in alone.values()]
+
+    def update(q):
+        for _ in range(200):
+            A, b = damper.update(q, still)
+            np.testing.assert_allclose(A, alone[q.tobytes()][0], rtol=0, atol=1e-9)  # where a query starts changes the last bits
+            np.testing.assert_allclose(b, alone[q.tobytes()][1], rtol=0, atol=1e-9)
+            assert (len(damper.near), len(still)) in rows and len(damper.A) == len(damper.b) == len(robot.rows)
+    with ThreadPoolExecutor(2) as pool:
+        for one in [pool.submit(update, q) for q in (standing, other)]:
+            one.result()
 
 
 def test_brackets_are_only_read():
