@@ -215,7 +215,8 @@ FCL_STPBV_VECTORIZED
 int StpBv::owner(const Vector3d& n, int hint) const {
   if (!(n.squaredNorm() > 0)) return 0;  // zero or NaN is no direction; any patch will do
   const Packed along = pack(n);
-  int current = hint >= 0 ? hint : tables_->patchNear[n];
+  const bool known = static_cast<unsigned>(hint) < static_cast<unsigned>(patchCount());
+  int current = known ? hint : tables_->patchNear[n];
   const PatchTable& patches = tables_->patches;
   int best = current;
   double least = kInfinity;

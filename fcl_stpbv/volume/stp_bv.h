@@ -124,7 +124,8 @@ class StpBv {
   double outside(int patch, const Eigen::Vector3d& n) const;
 
   /// The patch whose region contains the unit normal `n`. The search walks from patch to patch over their
-  /// boundaries. It starts at the patch `hint`, or, if `hint` is negative, at a patch from a direction table.
+  /// boundaries. It starts at the patch `hint`, or, if no patch has that number, at a patch from a direction
+  /// table.
   int owner(const Eigen::Vector3d& n, int hint = -1) const;
 
   /// Support function h(n) = max over the body of x.n, for unit `n` (m); infinite if `n` is not finite.

@@ -320,6 +320,11 @@ TEST_CASE("Every normal belongs to one region and every walk finds it") {
         REQUIRE(owners == 1);  // a random normal lies on a boundary with probability zero
         CHECK(volume->owner(n) == owner);
         CHECK(volume->owner(n, random.below(volume->patchCount())) == owner);
+        for (const int none : {volume->patchCount(), std::numeric_limits<int>::max(), -7}) {
+          CHECK(volume->owner(n, none) == owner);
+          CHECK(volume->support(n, none) == volume->support(n));
+          CHECK(volume->surfacePoint(n, none) == volume->surfacePoint(n));
+        }
       }
     }
   }
