@@ -1,6 +1,5 @@
 // Posture search in Python, one start per call, so that the starts can run in parallel.
 #include <cmath>
-#include <exception>
 #include <memory>
 #include <optional>
 #include <string>
@@ -66,17 +65,8 @@ class PythonPostureSearch {
     options.mends = options.anywhere = 0;
     options.seed = seed;
     Interrupt interrupt;
-    std::exception_ptr pressed;  // no exception passes through the solver, which is written in C
-    options.solver.stop = [&] {
-      try {
-        if (!pressed) interrupt();
-      } catch (...) {
-        pressed = std::current_exception();
-      }
-      return pressed != nullptr;
-    };
+    options.solver.stop = [&] { return interrupt(), false; };
     Posture posture = findPosture(setup, options);
-    if (pressed) std::rethrow_exception(pressed);
     requireFinite(posture, path + ": start " + std::to_string(start));
     return posture;
   }

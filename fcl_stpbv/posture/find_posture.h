@@ -46,8 +46,8 @@ struct Posture {
 };
 
 /// Searches for a posture. Deterministic for a given seed, unless `solver.maxSeconds` is set. @throws Error
-/// if the start has another size than the robot's coordinates, for example that of another base motion; never
-/// otherwise.
+/// if the start has another size than the robot's coordinates, for example that of another base motion, and
+/// whatever `solver.stop` and constraints of your own throw.
 Posture findPosture(PostureSetup& setup, const PostureOptions& options = {});
 
 }  // namespace fcl_stpbv

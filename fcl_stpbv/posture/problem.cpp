@@ -107,7 +107,7 @@ Eigen::VectorXd PostureProblem::costCurvature() const {
 const PostureValues& PostureProblem::evaluate(const Eigen::Ref<const Eigen::VectorXd>& x) {
   requireSize("PostureProblem", "x", x.size(), variables());
   if (known_ && x == values_.x) return values_;
-  known_ = true;
+  known_ = false;  // also if rows throw
   values_.x = x;
   const int n = kinematics_->size();
   const Eigen::VectorXd away = x.head(n) - cost_.reference;
@@ -129,6 +129,7 @@ const PostureValues& PostureProblem::evaluate(const Eigen::Ref<const Eigen::Vect
                    jacobian.middleRows(first, rows->size()));
     first += rows->size();
   }
+  known_ = true;
   return values_;
 }
 

@@ -37,7 +37,7 @@ class PostureRows {
   /// A row's name, for messages.
   virtual std::string name(int row) const = 0;
   /// Writes g and its Jacobian (size() x variables). The caller has set the Jacobian to zero. Lengths in m,
-  /// angles in rad.
+  /// angles in rad. What it throws ends a search and reaches the caller.
   virtual void evaluate(const Point& at, Eigen::Ref<Eigen::VectorXd> values,
                         Eigen::Ref<RowMatrix> jacobian) = 0;
   /// Number of distances computed so far, each with its gradient.
@@ -163,8 +163,8 @@ struct SolverOptions {
   /// An inequality enters the model if its value is below this when the solver starts or restarts, or when it
   /// is violated (m, rad).
   double activation = 0.1;
-  /// Called in every iteration; returning true stops the search. It must then keep returning true. May be
-  /// null.
+  /// Called in every iteration; returning true stops the search. It must then keep returning true. What it
+  /// throws ends the search and reaches the caller. May be null.
   std::function<bool()> stop;
 };
 
@@ -175,7 +175,8 @@ struct SolverOutcome {
   std::string status;  ///< why the solver stopped, as text
 };
 
-/// Sequential quadratic programming by NLopt's SLSQP. @throws Error for a start of another size.
+/// Sequential quadratic programming by NLopt's SLSQP. @throws Error for a start of another size, and whatever
+/// rows and `stop` throw.
 SolverOutcome solveBySlsqp(PostureProblem& problem, const Eigen::VectorXd& start,
                            const SolverOptions& options);
 

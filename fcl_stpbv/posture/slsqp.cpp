@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <exception>
 #include <memory>
 #include <vector>
 
@@ -36,6 +37,7 @@ class Slsqp {
       const double left = options_.maxSeconds -
                           std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
       const nlopt_result result = optimise(x, left);
+      if (failure_) std::rethrow_exception(failure_);
       if (!grown_ || stopped_) {
         best_.x = x;
         best_.status = stopped_ ? "stopped" : stuck_ ? "stuck" : nameOf(result);
@@ -119,22 +121,37 @@ class Slsqp {
     return nlopt_optimize(opt_, x.data(), &cost);
   }
 
-  // SLSQP begins with the identity as the Hessian. That is the Hessian of half the cost for joints of weight
-  // 1.
+  // Part of a callback. No exception may pass through NLopt, which is written in C: it ends the search, and
+  // run() throws it again.
+  template <class Part>
+  void guarded(const Part& part) {
+    try {
+      part();
+    } catch (...) {
+      if (!failure_) failure_ = std::current_exception();
+      nlopt_force_stop(opt_);
+    }
+  }
+
+  // SLSQP begins with the identity as the Hessian: half the cost has just that along each joint of weight 1.
   static double objective(unsigned n, const double* x, double* gradient, void* self) {
     Slsqp& s = *static_cast<Slsqp*>(self);
-    const PostureValues& values = s.problem_.evaluate(ConstMap(x, n));
-    if (gradient) {
-      Map(gradient, n) = values.costGradient / 2;
-      s.iterate_ = values.x;
-      ++s.best_.iterations;
-      s.line_ = 0;
-      s.watch(values);
-    } else {
-      s.watchLine();
-    }
-    s.grow(values);
-    return values.cost / 2;
+    double cost = kInfinity;
+    s.guarded([&] {
+      const PostureValues& values = s.problem_.evaluate(ConstMap(x, n));
+      if (gradient) {
+        Map(gradient, n) = values.costGradient / 2;
+        s.iterate_ = values.x;
+        ++s.best_.iterations;
+        s.line_ = 0;
+        s.watch(values);
+      } else {
+        s.watchLine();
+      }
+      s.grow(values);
+      cost = values.cost / 2;
+    });
+    return cost;
   }
 
   // Stops a search whose violations no longer fall; SLSQP would continue for hundreds of iterations.
@@ -175,20 +192,26 @@ class Slsqp {
 
   static void equalities(unsigned m, double* result, unsigned n, const double* x, double* jacobian,
                          void* self) {
-    const Slsqp& s = *static_cast<Slsqp*>(self);
-    const PostureValues& values = s.problem_.evaluate(ConstMap(x, n));
-    Map(result, m) = s.combinations_.transpose() * values.equal;
-    if (jacobian) Eigen::Map<RowMatrix>(jacobian, m, n) = s.combinations_.transpose() * values.equalJacobian;
+    Slsqp& s = *static_cast<Slsqp*>(self);
+    s.guarded([&] {
+      const PostureValues& values = s.problem_.evaluate(ConstMap(x, n));
+      Map(result, m) = s.combinations_.transpose() * values.equal;
+      if (jacobian)
+        Eigen::Map<RowMatrix>(jacobian, m, n) = s.combinations_.transpose() * values.equalJacobian;
+    });
   }
 
   static void inequalities(unsigned m, double* result, unsigned n, const double* x, double* jacobian,
                            void* self) {
-    const Slsqp& s = *static_cast<Slsqp*>(self);
-    const PostureValues& values = s.problem_.evaluate(ConstMap(x, n));
-    for (unsigned i = 0; i < m; ++i) {
-      result[i] = -values.atLeast[s.active_[i]];
-      if (jacobian) Eigen::Map<RowMatrix>(jacobian, m, n).row(i) = -values.atLeastJacobian.row(s.active_[i]);
-    }
+    Slsqp& s = *static_cast<Slsqp*>(self);
+    s.guarded([&] {
+      const PostureValues& values = s.problem_.evaluate(ConstMap(x, n));
+      for (unsigned i = 0; i < m; ++i) {
+        result[i] = -values.atLeast[s.active_[i]];
+        if (jacobian)
+          Eigen::Map<RowMatrix>(jacobian, m, n).row(i) = -values.atLeastJacobian.row(s.active_[i]);
+      }
+    });
   }
 
   PostureProblem& problem_;
@@ -202,6 +225,7 @@ class Slsqp {
   int leastAt_ = 0;
   int line_ = 0;  // points without a gradient since the last iterate
   Eigen::VectorXd iterate_, grownAt_;
+  std::exception_ptr failure_;  // the first one of a callback
   SolverOutcome best_;
 };
 

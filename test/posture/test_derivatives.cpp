@@ -237,6 +237,29 @@ TEST_CASE("collisions' derivatives agree with differences away from deep penetra
   CHECK(compared > 30000);
 }
 
+TEST_CASE("after a constraint threw, the problem does not take half of its values for all") {
+  const auto kinematics = std::make_shared<const Kinematics>(hrp2Scene().robot, BaseMotion::fixed);
+  const auto problem = problemOf(kinematics);
+  bool broken = false;
+  SmoothConstraint touchy{"touchy",
+                          {0},
+                          [&broken](const auto& q, double* slope) {
+                            if (broken) throw Error("no value");
+                            if (slope) *slope = 2;
+                            return 2 * q[0] + 1;
+                          },
+                          {}};
+  problem->add(std::make_shared<SmoothRow>(touchy));
+  Eigen::VectorXd x = problem->variablesAt(kinematics->neutral());
+  problem->evaluate(x);
+  x[0] = 0.125;
+  broken = true;
+  CHECK_THROWS_WITH(problem->evaluate(x), "no value");
+  broken = false;
+  CHECK(problem->evaluate(x).atLeast[0] == 1.25);
+  CHECK(problem->evaluate(x).atLeastJacobian(0, 0) == 2);
+}
+
 TEST_CASE("a user's own constraint is a row like any other") {
   const auto kinematics = std::make_shared<const Kinematics>(hrp2Scene().robot, BaseMotion::floating);
   const auto problem = problemOf(kinematics);

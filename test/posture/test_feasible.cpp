@@ -1,6 +1,7 @@
 // What is told as feasible is, and what is not has constraints that cannot hold together.
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <stdexcept>
 
 #include "test/posture/arms.h"
 
@@ -210,6 +211,55 @@ TEST_CASE("a search that is stopped ends there, and tells of no conflict") {
       CHECK(posture.conflict.empty());
       CHECK((posture.feasible || posture.status == "stopped"));
     }
+}
+
+TEST_CASE("what a constraint or the call to stop throws reaches the caller, whenever it happens") {
+  // Throws at its n-th evaluation.
+  class Failing : public PostureRows {
+   public:
+    Failing(Kind kind, int after) : kind_(kind), left_(after) {}
+    Kind kind() const override { return kind_; }
+    int size() const override { return 1; }
+    std::string name(int) const override { return "failing"; }
+    void evaluate(const Point& at, Eigen::Ref<Eigen::VectorXd> values,
+                  Eigen::Ref<RowMatrix> jacobian) override {
+      if (left_-- == 0) throw std::domain_error("no value there");
+      values[0] = at.x[0] - 0.1;
+      jacobian(0, 0) = 1;
+    }
+
+   private:
+    Kind kind_;
+    int left_;
+  };
+  Random random(4);
+  const PostureScene scene = planarArm();
+  const PostureTask::Place place =
+      position("tip", poseOf(scene, randomWithin(scene, random), "tip").translation());
+  PostureTask task;
+  task.base = BaseMotion::fixed;
+  task.placements = {place};
+  for (const PostureRows::Kind kind : {PostureRows::Kind::equal, PostureRows::Kind::atLeast}) {
+    int thrown = 0;
+    for (int after = 0; after < 60; ++after) {
+      PostureSetup setup = setUpWithoutCollisions(task, scene);
+      setup.problem->add(std::make_shared<Failing>(kind, after));
+      PostureOptions options;
+      options.starts = 1;
+      options.mends = options.anywhere = 0;
+      try {
+        findPosture(setup, options);
+      } catch (const std::domain_error& error) {
+        CHECK(std::string(error.what()) == "no value there");
+        ++thrown;
+        CHECK_NOTHROW(findPosture(setup, options));  // it throws once
+      }
+    }
+    CHECK(thrown > 10);
+  }
+  PostureOptions options;
+  options.solver.stop = []() -> bool { throw std::domain_error("enough"); };
+  CHECK_THROWS_AS(found(scene, {place}, options), std::domain_error);
 }
 
 TEST_CASE("constraints of one joint each are freed one by one, where no random posture frees all at once") {
