@@ -101,7 +101,7 @@ class PythonRobot {
     for (const CheckedPair& pair : constraints_->pairs()) {
       add(*geometry_->bodies[static_cast<std::size_t>(pair.body)].geometry);
       const auto other = static_cast<std::size_t>(pair.other);
-      add(pair.obstacle ? *scene_->obstacles[other].geometry : *geometry_->bodies[other].geometry);
+      add(pair.obstacle ? *scene_->obstacles[other].geometry() : *geometry_->bodies[other].geometry);
     }
     int sum = 0;
     for (const StpBv* volume : volumes) sum += volume->vertexCount();

@@ -145,11 +145,8 @@ std::pair<PostureTask, PostureScene> withBaseAtOrigin(PostureTask task, PostureS
   task.basePose = back * task.basePose;
   task.toWorld = task.toWorld * stands.linear();
   for (PostureTask::Place& place : task.placements) place.placement.target = back * place.placement.target;
-  for (Obstacle& obstacle : scene.obstacles) {
-    obstacle.pose = back * obstacle.pose;
-    obstacle.centre = back * obstacle.centre;
-  }
-  if (task.base == BaseMotion::fixed) task.basePose.setIdentity();  // exactly, without rounding
+  for (Obstacle& obstacle : scene.obstacles) obstacle.place(back * obstacle.pose());
+  if (task.base == BaseMotion::fixed) task.basePose.setIdentity();  // without rounding
   return {std::move(task), std::move(scene)};
 }
 

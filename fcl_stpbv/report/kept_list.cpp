@@ -39,10 +39,10 @@ class Question {
     text_ += "srdf\n";
     if (srdf) reasons(kinematics.robot(), *srdf);
     for (const Obstacle& obstacle : options.obstacles) {
-      add(obstacle.radius);
-      add(obstacle.centre);
-      add(obstacle.pose);
-      add(*obstacle.geometry);
+      add(obstacle.radius());
+      add(obstacle.centre());
+      add(obstacle.pose());
+      add(*obstacle.geometry());
     }
     search(options);
   }

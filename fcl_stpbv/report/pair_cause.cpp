@@ -58,7 +58,7 @@ PairCauses::Placed PairCauses::first(const CheckedPair& pair, const Kinematics::
 PairCauses::Placed PairCauses::second(const CheckedPair& pair, const Kinematics::State& state) {
   if (pair.obstacle) {
     const Body& body = scene_->bodies[at(pair.other)];
-    return {&exact(body), &hull(body), obstacles_[at(pair.other)].pose};
+    return {&exact(body), &hull(body), obstacles_[at(pair.other)].pose()};
   }
   return first({pair.other, pair.body}, state);
 }
@@ -104,9 +104,9 @@ std::optional<std::string> PairCauses::question(const std::vector<CheckedPair>& 
     return add(body, state.link[at(body.link)] * body.pose);
   };
   for (const CheckedPair& pair : bodies) {
-    const bool meshes = addOwn(pair.body) &&
-                        (pair.obstacle ? add(scene_->bodies[at(pair.other)], obstacles_[at(pair.other)].pose)
-                                       : addOwn(pair.other));
+    const bool meshes = addOwn(pair.body) && (pair.obstacle ? add(scene_->bodies[at(pair.other)],
+                                                                  obstacles_[at(pair.other)].pose())
+                                                            : addOwn(pair.other));
     if (!meshes) return std::nullopt;
   }
   return text;

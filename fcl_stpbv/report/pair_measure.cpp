@@ -34,18 +34,19 @@ struct Placed {
 };
 
 template <typename Placeable>  // a Body or an Obstacle
-Placed placed(const Placeable& body, const Eigen::Isometry3d& pose) {
-  std::shared_ptr<const fcl::CollisionGeometryd> hull = body.geometry;
+Placed placed(const Placeable& body, const std::shared_ptr<const fcl::CollisionGeometryd>& geometry,
+              const Eigen::Isometry3d& pose) {
+  std::shared_ptr<const fcl::CollisionGeometryd> hull = geometry;
   if (body.primitive) hull = body.primitive;
   if (body.full) hull = body.full;
-  return {body.geometry.get(), hull, pose};
+  return {geometry.get(), hull, pose};
 }
 
 Placed placed(const Body& body, const Kinematics::State& state) {
-  return placed(body, state.link[at(body.link)] * body.pose);
+  return placed(body, body.geometry, state.link[at(body.link)] * body.pose);
 }
 
-Placed placed(const Obstacle& obstacle) { return placed(obstacle, obstacle.pose); }
+Placed placed(const Obstacle& obstacle) { return placed(obstacle, obstacle.geometry(), obstacle.pose()); }
 
 void covers(const CollisionReport& report, const CheckedPair& both, const Kinematics::State& state,
             PairReport& pair) {

@@ -70,7 +70,7 @@ class Bodies {
           report.pairsOfBodies ? body.name : report.robot->links[static_cast<std::size_t>(body.link)].name,
           body.link, body.pose, *body.geometry, body.parts > 0);
     for (const Obstacle& obstacle : report.obstacles)
-      add(obstacle.name, obstacle.name, -1, obstacle.pose, *obstacle.geometry, false);
+      add(obstacle.name, obstacle.name, -1, obstacle.pose(), *obstacle.geometry(), false);
   }
   nlohmann::json shapes = nlohmann::json::array(), list = nlohmann::json::array();
 

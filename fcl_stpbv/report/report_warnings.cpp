@@ -70,7 +70,7 @@ std::string unmovedInObstacles(const CollisionReport& report) {
     if (body.partOf >= 0 || moves(*report.robot, body.link)) continue;
     const Eigen::Isometry3d pose = state.link[static_cast<std::size_t>(body.link)] * body.pose;
     for (const Obstacle& obstacle : report.obstacles) {
-      if (!collides(*body.geometry, pose, *obstacle.geometry, obstacle.pose, report.margin)) continue;
+      if (!collides(*body.geometry, pose, *obstacle.geometry(), obstacle.pose(), report.margin)) continue;
       if (++meet == 1) first = "'" + body.name + "' meets the obstacle '" + obstacle.name + "'";
     }
   }

@@ -6,7 +6,9 @@
 
 #include "fcl_stpbv/convex/relative_pose.h"
 #include "fcl_stpbv/error.h"
+#include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/robot/adjacency.h"
+#include "fcl_stpbv/robot/bounding_ball.h"
 #include "fcl_stpbv/robot/kinematics.h"
 #include "fcl_stpbv/robot/link_check.h"
 
@@ -22,11 +24,23 @@ int parentOf(const RobotModel& robot, int link) {
 
 }  // namespace
 
+Obstacle::Obstacle(const std::string& name_, std::shared_ptr<const fcl::CollisionGeometryd> geometry,
+                   const Eigen::Isometry3d& pose)
+    : name(name_), geometry_(std::move(geometry)) {
+  if (!geometry_) throw Error("obstacle '" + name + "': its geometry is null");
+  place(pose);
+}
+
+void Obstacle::place(const Eigen::Isometry3d& pose) {
+  pose_ = pose;
+  const bool rigid = makeRigid(pose_);  // as distance() does: bounds take it as it is
+  const BoundingBall ball = boundingBall(*geometry_);
+  centre_ = pose_ * ball.centre;
+  radius_ = rigid ? ball.radius : kInfinity;
+}
+
 Obstacle obstacleOf(const fcl::CollisionObjectd& object, const std::string& name) {
-  const auto& geometry = object.collisionGeometry();
-  Eigen::Isometry3d pose = object.getTransform();
-  makeRigid(pose);  // as distance() does: bounds take it as it is
-  return {name, geometry, pose, pose * geometry->aabb_center, geometry->aabb_radius, nullptr, nullptr};
+  return {name, object.collisionGeometry(), object.getTransform()};
 }
 
 std::string nameOf(const CheckedPair& pair, const RobotGeometry& geometry,
@@ -77,8 +91,9 @@ std::vector<Obstacle> obstaclesOf(std::shared_ptr<const RobotModel> scene, const
   std::vector<Obstacle> obstacles;
   for (const Body& body : geometry.bodies) {
     const Eigen::Isometry3d& link = state.link[static_cast<std::size_t>(body.link)];
-    obstacles.push_back({body.name, body.geometry, link * body.pose, link * body.centre, body.radius,
-                         body.primitive, body.full});
+    obstacles.emplace_back(body.name, body.geometry, link * body.pose);
+    obstacles.back().primitive = body.primitive;
+    obstacles.back().full = body.full;
   }
   return obstacles;
 }

@@ -21,20 +21,38 @@ struct CheckedPair {
 
 /// A static obstacle. Do not change its geometry after it was given to a checker, to constraints or to a
 /// motion check: they check its vertices and boxes only once.
-struct Obstacle {
-  std::string name;                                         ///< for messages and reports
-  std::shared_ptr<const fcl::CollisionGeometryd> geometry;  ///< the geometry that queries use
+class Obstacle {
+ public:
+  /// `pose` is in the world (see place()). @throws Error naming the obstacle for a null geometry.
+  Obstacle(const std::string& name, std::shared_ptr<const fcl::CollisionGeometryd> geometry,
+           const Eigen::Isometry3d& pose = Eigen::Isometry3d::Identity());
+
+  /// Moves it to another pose. A rotation that is off by up to 1e-6 is replaced by the nearest exact one. At
+  /// a pose that is not a rotation and a translation, nothing is clear of the obstacle.
+  void place(const Eigen::Isometry3d& pose);
+
+  /// The geometry that queries use.
+  const std::shared_ptr<const fcl::CollisionGeometryd>& geometry() const { return geometry_; }
   /// Pose in the world; its rotation is exact up to rounding.
-  Eigen::Isometry3d pose;
-  Eigen::Vector3d centre;  ///< centre of a bounding sphere, in the world (m)
-  double radius = 0;       ///< of that sphere (m)
+  const Eigen::Isometry3d& pose() const { return pose_; }
+  /// Centre of a bounding sphere, in the world (m).
+  const Eigen::Vector3d& centre() const { return centre_; }
+  /// Radius of that sphere (m); infinite for a half space or a plane, and if no sphere is known.
+  double radius() const { return radius_; }
+
+  std::string name;  ///< for messages and reports
   std::shared_ptr<const fcl::CollisionGeometryd>
       primitive;                                        ///< the primitive under its smooth cover, else null
   std::shared_ptr<const fcl::CollisionGeometryd> full;  ///< Body::full, if the obstacle is a body of a scene
+
+ private:
+  std::shared_ptr<const fcl::CollisionGeometryd> geometry_;
+  Eigen::Isometry3d pose_;
+  Eigen::Vector3d centre_;
+  double radius_;
 };
 
-/// Makes an obstacle of an FCL object at its current pose. A rotation that is off by up to 1e-6 is replaced
-/// by the nearest exact one.
+/// Makes an obstacle of an FCL object at its current pose. @throws Error as the constructor does.
 Obstacle obstacleOf(const fcl::CollisionObjectd& object, const std::string& name);
 
 /// The names of a pair's bodies. @throws Error as requireBodies() does.

@@ -31,7 +31,7 @@ CollisionChecker::Impl::Impl(std::shared_ptr<const Kinematics> kinematics,
   for (const Body& body : geometry_->bodies)
     addBody(at(body.link), *body.geometry, body.pose, body.centre, body.radius);
   for (const Obstacle& obstacle : obstacles_)
-    addBody(world, *obstacle.geometry, obstacle.pose, obstacle.centre, obstacle.radius);
+    addBody(world, *obstacle.geometry(), obstacle.pose(), obstacle.centre(), obstacle.radius());
   for (const CheckedPair& pair : pairs_) addPair(pair);
   const PairedBodies paired = pairedBodies(pairs_, *geometry_);
   for (const int body : paired.bodies) placed_.push_back(at(body));
@@ -48,18 +48,19 @@ void CollisionChecker::Impl::addBody(std::size_t frame, const fcl::CollisionGeom
   PlacedBody placed{frame, &geometry, pose, centre, radius, -kInfinity, hasFiniteCorners(geometry),
                     false, {}};
   placed.convex = isConvex(geometry, placed.body);
-  if (const StpBv* volume = placed.body.volume) {
+  const StpBv* volume = placed.body.volume;
+  if (volume && std::isfinite(radius)) {
     placed.centre = pose * volume->centre();
     placed.radius = volume->enclosingRadius();
     placed.inner = volume->innerRadius() + volume->radii().r;
-  } else if (placed.convex && !placed.body.unbounded()) {
+  } else if (placed.convex && !placed.body.unbounded() && std::isfinite(radius)) {
     const fcl::Sphered point(0);  // a sphere's centre need not be in the body that the sphere is around
     Isometry3d where = Isometry3d::Identity();
     where.translation() = centre;
     const double away = distance(geometry, pose, point, where).upper;
     if (away <= 0) placed.inner = -away;
   }
-  if (!placed.centre.allFinite() || !std::isfinite(placed.radius)) {  // a half space, whose box is infinite
+  if (!placed.centre.allFinite() || !std::isfinite(placed.radius)) {  // a half space, or an invalid pose
     placed.centre = pose.translation();
     placed.radius = kInfinity;
   } else {

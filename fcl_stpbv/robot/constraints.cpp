@@ -42,8 +42,8 @@ CollisionConstraints::CollisionConstraints(std::shared_ptr<const Kinematics> kin
         "CollisionConstraints: exactUpTo must be less than influence; rows bend over between the two");
   if (!(options_.handOver > 0)) throw Error("CollisionConstraints: handOver must be larger than 0");
   for (const Obstacle& obstacle : options_.obstacles) {
-    pose_.push_back(obstacle.pose);
-    centre_.push_back(obstacle.centre);
+    pose_.push_back(obstacle.pose());
+    centre_.push_back(obstacle.centre());
   }
   for (const CheckedPair& pair : pairs_)
     requireBodies(pair, *geometry_, options_.obstacles.size(), "CollisionConstraints");
@@ -105,7 +105,7 @@ void CollisionConstraints::addPair(const CheckedPair& pair) {
     row.first = &first->volume();
     row.second = &other->volume();
   }
-  row.far += body.radius + (pair.obstacle ? options_.obstacles[at(pair.other)].radius
+  row.far += body.radius + (pair.obstacle ? options_.obstacles[at(pair.other)].radius()
                                           : geometry_->bodies[at(pair.other)].radius);
   addTerms(pair, row);
   rows_.push_back(row);
@@ -161,7 +161,7 @@ void CollisionConstraints::addSmooth(const SmoothConstraint& constraint) {
 }
 
 const fcl::CollisionGeometryd& CollisionConstraints::second(const CheckedPair& pair) const {
-  return pair.obstacle ? *options_.obstacles[at(pair.other)].geometry
+  return pair.obstacle ? *options_.obstacles[at(pair.other)].geometry()
                        : *geometry_->bodies[at(pair.other)].geometry;
 }
 

@@ -116,7 +116,7 @@ bool DetailChoice::meets(const SceneNeed& need, Details details) {
   for (const Body* a : bodiesOf(need.pair.link1, details.first)) {
     if (need.pair.obstacle) {
       const Obstacle& obstacle = obstacles_[at(need.pair.link2)];
-      if (!apart(*a, *obstacle.geometry, obstacle.pose)) return false;
+      if (!apart(*a, *obstacle.geometry(), obstacle.pose())) return false;
       continue;
     }
     for (const Body* b : bodiesOf(need.pair.link2, details.second))

@@ -5,6 +5,7 @@
 
 #include <Eigen/Geometry>
 #include <functional>
+#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -61,7 +62,7 @@ struct Body {
   /// The link's name, with #2, #3 ... for its second, third ... shape.
   std::string name;
   /// Pose in the link's frame; its rotation is exact up to rounding.
-  Eigen::Isometry3d pose;
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
   std::shared_ptr<fcl::CollisionGeometryd> geometry;  ///< the geometry that queries use
   /// The radii from the options, or fitted; for a flat primitive those that its cover would get.
   StpBvOptions radii;
@@ -74,11 +75,12 @@ struct Body {
   std::string file;                                    ///< "" for a primitive
   /// Identifies the file's content and scale in caches; "" for a primitive.
   std::string meshKey;
-  Eigen::Vector3d scale{1, 1, 1};  ///< of the mesh
-  Eigen::Vector3d centre;          ///< centre of a bounding sphere, in the link's frame (m)
-  double radius = 0;               ///< of that sphere (m)
-  OverCover cover{0, 0};           ///< over-cover of the volume over the mesh's hull or the primitive (m)
-  int partOf = -1;  ///< for a convex part (LinkParts): index of its whole body; -1 for a whole body
+  Eigen::Vector3d scale{1, 1, 1};   ///< of the mesh
+  Eigen::Vector3d centre{0, 0, 0};  ///< centre of a bounding sphere, in the link's frame (m)
+  /// Radius of that sphere (m). Infinite if it is not known: then no pair is left out as far away.
+  double radius = std::numeric_limits<double>::infinity();
+  OverCover cover{0, 0};  ///< over-cover of the volume over the mesh's hull or the primitive (m)
+  int partOf = -1;        ///< for a convex part (LinkParts): index of its whole body; -1 for a whole body
   /// For a whole body: number of its convex parts, which replace it in pairs of `byParts`.
   int parts = 0;
   double excess = 0;      ///< for a part: upper bound on the excess of its hull over the mesh as a solid (m)

@@ -14,6 +14,7 @@
 #include "fcl_stpbv/io/text_scanner.h"
 #include "fcl_stpbv/number_check.h"
 #include "fcl_stpbv/numbers.h"
+#include "fcl_stpbv/robot/bounding_ball.h"
 #include "fcl_stpbv/volume/covered_hull.h"
 #include "fcl_stpbv/volume/reduce.h"
 
@@ -184,12 +185,10 @@ void makeVolume(const GeometryOptions& options, const std::string& link, const S
 }
 
 void makeHull(const Points& points, Body& body) {
-  const auto hull = hullGeometry(points);
-  body.centre = hull->aabb_center;
-  body.radius = 0;
-  for (const Eigen::Vector3d& v : hull->getVertices())
-    body.radius = std::max(body.radius, (v - body.centre).norm());
-  body.geometry = hull;
+  body.geometry = hullGeometry(points);
+  const BoundingBall ball = boundingBall(*body.geometry);
+  body.centre = ball.centre;
+  body.radius = ball.radius;
 }
 
 }  // namespace fcl_stpbv::detail

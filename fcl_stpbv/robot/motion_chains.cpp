@@ -60,7 +60,7 @@ void MotionChains::addBodies(const RobotGeometry& geometry, const std::vector<Ob
   for (const Body& body : geometry.bodies)
     add(body.link, *body.geometry, body.pose, body.centre, body.radius);
   for (const Obstacle& obstacle : obstacles)
-    add(-1, *obstacle.geometry, obstacle.pose, obstacle.centre, obstacle.radius);
+    add(-1, *obstacle.geometry(), obstacle.pose(), obstacle.centre(), obstacle.radius());
 }
 
 void MotionChains::addPair(const CheckedPair& pair, int bodies) {

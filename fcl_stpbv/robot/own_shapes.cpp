@@ -43,7 +43,7 @@ bool OwnShapes::rulesOut(const SceneNeed& need, const Kinematics& kinematics,
   for (int i = first; i < last; ++i) {
     if (need.pair.obstacle) {
       const Obstacle& obstacle = obstacles[at(need.pair.link2)];
-      if (isNear(i, *obstacle.geometry, obstacle.pose, 0)) return true;
+      if (isNear(i, *obstacle.geometry(), obstacle.pose(), 0)) return true;
       continue;
     }
     const auto [begin, end] = whole_->of(need.pair.link2);

@@ -31,7 +31,7 @@ PairSearch::PairSearch(std::shared_ptr<const Kinematics> kinematics,
 PairSearch::PairSearch(std::shared_ptr<const Kinematics> kinematics,
                        std::shared_ptr<const RobotGeometry> geometry, int link, const Obstacle& obstacle)
     : PairSearch(kinematics, geometry, pairsWithObstacle(*geometry, link, 0), withObstacle(obstacle)) {
-  boundSlopes(link, reachOf(*geometry_, link), 0, obstacle.centre.norm() + obstacle.radius);
+  boundSlopes(link, reachOf(*geometry_, link), 0, obstacle.centre().norm() + obstacle.radius());
 }
 
 PairSearch::PairSearch(std::shared_ptr<const Kinematics> kinematics,

@@ -64,7 +64,7 @@ double roomOf(const Kinematics& kinematics, const RobotGeometry& geometry,
     if (first < last) reach = std::max(reach, way[l] + reachOf(geometry, static_cast<int>(l)));
   }
   for (const Obstacle& obstacle : obstacles)
-    reach = std::max(reach, obstacle.centre.norm() + obstacle.radius);
+    reach = std::max(reach, obstacle.centre().norm() + obstacle.radius());
   return std::max(scale, 2 * reach);
 }
 

@@ -104,10 +104,7 @@ TEST_CASE("a robot that faces anywhere takes the can as well") {
     PostureTask task = pickCan();
     task.basePose = turn * task.basePose;
     for (PostureTask::Place& place : task.placements) place.placement.target = turn * place.placement.target;
-    for (Obstacle& obstacle : scene.obstacles) {
-      obstacle.pose = turn * obstacle.pose;
-      obstacle.centre = turn * obstacle.centre;
-    }
+    for (Obstacle& obstacle : scene.obstacles) obstacle.place(turn * obstacle.pose());
     PostureSetup setup = setUp(task, scene);
     const Posture posture = findPosture(setup);
     INFO("yaw " << yaw);

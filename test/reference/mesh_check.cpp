@@ -84,9 +84,9 @@ void MeshCheck::setObstacles(const std::vector<Obstacle>& obstacles) {
   scene_.clear();
   scenePoses_.clear();
   for (const Obstacle& obstacle : obstacles) {
-    scene_.push_back({0, obstacle.name, std::const_pointer_cast<fcl::CollisionGeometryd>(obstacle.geometry),
+    scene_.push_back({0, obstacle.name, std::const_pointer_cast<fcl::CollisionGeometryd>(obstacle.geometry()),
                       Eigen::Isometry3d::Identity()});
-    scenePoses_.push_back(obstacle.pose);
+    scenePoses_.push_back(obstacle.pose());
   }
 }
 

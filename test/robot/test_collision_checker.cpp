@@ -9,11 +9,13 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
+#include <memory>
 
 #include "fcl_stpbv/adapter/hull_geometry.h"
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/robot/collision_checker.h"
 #include "fcl_stpbv/robot/constraints.h"
+#include "fcl_stpbv/robot/motion_check.h"
 #include "test/reference/robots.h"
 
 using namespace fcl_stpbv;
@@ -301,4 +303,60 @@ TEST_CASE("a body in the middle of a room's mesh, or in the box around a hull, i
   CollisionChecker checker(kinematics, geometry, {{0, 0, true}}, around);
   CHECK(checker.collides(VectorXd::Zero(1)));
   CHECK(checker.work().searched == 0);
+}
+
+TEST_CASE("an obstacle of a geometry and a pose alone stops a robot that is inside it") {
+  const Problem p = problem(robots()[0], BaseMotion::floating);
+  const std::vector<CheckedPair> pairs = obstaclePairs(*p.model, *p.geometry, 1, true);
+  const auto mesh = std::make_shared<fcl::BVHModel<fcl::OBBRSSd>>();  // FCL has not computed its box
+  fcl::generateBVHModel(*mesh, fcl::Boxd(4, 4, 4), Eigen::Isometry3d::Identity());
+  const std::vector<std::shared_ptr<const fcl::CollisionGeometryd>> large{
+      std::make_shared<fcl::Sphered>(3), std::make_shared<fcl::Boxd>(6, 6, 6),
+      std::make_shared<StpBvGeometry>(StpBv::build(box(3, 3, 3))), detail::hullGeometry(box(3, 3, 3)),
+      std::make_shared<fcl::Halfspaced>(Eigen::Vector3d(0, 0, 1), 3)};
+  const VectorXd q = p.kinematics->neutral();
+  for (const auto& geometry : large) {
+    CollisionChecker checker(p.kinematics, p.geometry, pairs, {{"around", geometry}});
+    CHECK(checker.collides(q));
+    CHECK(checker.minDistance(q) < -1);
+    ConstraintOptions options;
+    options.obstacles = {{"around", geometry}};
+    CollisionConstraints constraints(p.kinematics, p.geometry, pairs, options);
+    VectorXd d(constraints.rows());
+    constraints.evaluate(q, d);
+    CHECK(d.minCoeff() < -1);
+    CHECK_FALSE(MotionCheck(p.kinematics, p.geometry, pairs, options.obstacles).isMotionFree(q, q));
+  }
+  // The wall of a mesh without a box goes through the robot: x = 0 is in every body of the neutral posture.
+  CollisionChecker checker(p.kinematics, p.geometry, pairs,
+                           {{"wall", mesh, pose(Eigen::Matrix3d::Identity(), {2, 0, 0})}});
+  CHECK(checker.collides(q));
+
+  // At a pose that is no rotation nothing is clear, however far away.
+  Eigen::Isometry3d twice = pose(Eigen::Matrix3d::Identity(), {50, 0, 0});
+  twice.linear() *= 2;
+  for (const auto& geometry : large) {
+    Obstacle obstacle("far", geometry, twice);
+    CHECK(CollisionChecker(p.kinematics, p.geometry, pairs, {obstacle}).collides(q));
+    if (std::dynamic_pointer_cast<const fcl::Halfspaced>(geometry)) continue;
+    obstacle.place(pose(Eigen::Matrix3d::Identity(), {50, 0, 0}));
+    CHECK_FALSE(CollisionChecker(p.kinematics, p.geometry, pairs, {obstacle}).collides(q));
+  }
+  CHECK_THROWS_WITH(Obstacle("crate", nullptr), "obstacle 'crate': its geometry is null");
+}
+
+TEST_CASE("a body without a bounding sphere is never left out as far away") {
+  const Problem p = problem(robots()[0]);
+  RobotGeometry bare = *p.geometry;
+  for (Body& body : bare.bodies) {
+    const Body blank;
+    body.centre = blank.centre, body.radius = blank.radius;
+  }
+  const auto geometry = std::make_shared<const RobotGeometry>(bare);
+  CollisionChecker checker(p.kinematics, geometry, p.pairs), known(p.kinematics, p.geometry, p.pairs);
+  Random random(5);
+  for (int i = 0; i < 200; ++i) {
+    const VectorXd q = randomConfiguration(*p.kinematics, random);
+    CHECK(checker.collides(q) == known.collides(q));
+  }
 }

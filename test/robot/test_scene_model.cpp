@@ -261,7 +261,7 @@ TEST_CASE("what cannot be measured is not met") {
   const VectorXd q = workshop.at(0.5, 0.5), far = workshop.at(1e151, 0.5);
   const auto unmetAmong = [&](const Eigen::Isometry3d& pose) {
     const auto ball = std::make_shared<const fcl::Sphered>(0.1);
-    const std::vector<Obstacle> obstacles{{"ball", ball, pose, {0, 0, 0}, 0.1, nullptr, nullptr}};
+    const std::vector<Obstacle> obstacles{{"ball", ball, pose}};
     const LinkPair pair{workshop.cupAndL.link2, 0, true};
     return modelForScene(workshop.kinematics, workshop.levels, obstacles, {{pair, q, 0}}, workshop.options)
         .unmet.size();

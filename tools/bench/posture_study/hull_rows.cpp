@@ -94,13 +94,13 @@ void HullRows::evaluate(const Point& point, Eigen::Ref<Eigen::VectorXd> values,
     const Body* second = obstacle ? nullptr : &geometry_->bodies[at(pair.other)];
     const double rounding = (obstacle ? 1 : 2) * rounding_ + kBeyondMargin;
     const Eigen::Vector3d centre =
-        obstacle ? obstacle->centre : Eigen::Vector3d(point.state.link[at(second->link)] * second->centre);
-    const double reach = first.radius + (obstacle ? obstacle->radius : second->radius);
+        obstacle ? obstacle->centre() : Eigen::Vector3d(point.state.link[at(second->link)] * second->centre);
+    const double reach = first.radius + (obstacle ? obstacle->radius() : second->radius);
     values[static_cast<Eigen::Index>(row)] = influence_;
     if ((centre - link * first.centre).norm() >= influence_ + reach) continue;
     ++queries_;
     const Answer answer =
-        obstacle ? ask(*hulls_[at(pair.body)], link * first.pose, *obstacle->geometry, obstacle->pose)
+        obstacle ? ask(*hulls_[at(pair.body)], link * first.pose, *obstacle->geometry(), obstacle->pose())
                  : ask(*hulls_[at(pair.body)], link * first.pose, *hulls_[at(pair.other)],
                        point.state.link[at(second->link)] * second->pose);
     if (answer.distance - rounding >= influence_) continue;
