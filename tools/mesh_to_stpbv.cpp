@@ -1,6 +1,5 @@
 // mesh_to_stpbv: STP-BVs from meshes, clouds of points and volumes in other formats.
 #include <algorithm>
-#include <atomic>
 #include <exception>
 #include <filesystem>
 #include <iostream>
@@ -11,7 +10,7 @@
 #include <vector>
 
 #include "fcl_stpbv/error.h"
-#include "fcl_stpbv/robot/worker_pool.h"
+#include "fcl_stpbv/robot/share_out.h"
 #include "tools/conversion.h"
 #include "tools/cores.h"
 #include "tools/number_check.h"
@@ -177,31 +176,26 @@ std::size_t runAll(const std::vector<Job>& jobs, const Arguments& arguments) {
   std::ostream& reports = isStandardOutput(arguments.output) ? std::cerr : std::cout;
   ProgressBar bar(jobs.size(), !arguments.quiet);
   std::vector<std::optional<Outcome>> outcomes(jobs.size());
-  std::atomic<std::size_t> next{0};
   std::size_t done = 0, told = 0, failed = 0;
   std::mutex telling;
   const auto show = [&](const std::string& input) {
     bar.show(done, std::filesystem::path(input).filename().string());  // the folder leaves it no room
   };
   show(jobs.front().input);
-  auto work = [&](int) {
-    for (std::size_t i; (i = next++) < jobs.size();) {
-      Outcome outcome = runJob(jobs[i], arguments);
-      const std::lock_guard<std::mutex> lock(telling);
-      ++done;
-      outcomes[i] = std::move(outcome);
-      for (; told < jobs.size() && outcomes[told]; ++told) {
-        bar.clear();
-        reports << outcomes[told]->report << std::flush;
-        if (!outcomes[told]->complaint.empty()) tell(kProgram, outcomes[told]->complaint);
-        if (!outcomes[told]->good) ++failed;
-        *outcomes[told] = {};
-      }
-      if (told < jobs.size()) show(jobs[told].input);
+  fcl_stpbv::detail::shareOut(jobs.size(), std::min(arguments.jobs, kMostJobs), [&](std::size_t i) {
+    Outcome outcome = runJob(jobs[i], arguments);
+    const std::lock_guard<std::mutex> lock(telling);
+    ++done;
+    outcomes[i] = std::move(outcome);
+    for (; told < jobs.size() && outcomes[told]; ++told) {
+      bar.clear();
+      reports << outcomes[told]->report << std::flush;
+      if (!outcomes[told]->complaint.empty()) tell(kProgram, outcomes[told]->complaint);
+      if (!outcomes[told]->good) ++failed;
+      *outcomes[told] = {};
     }
-  };
-  const int useful = static_cast<int>(std::min<std::size_t>(jobs.size(), kMostJobs));
-  fcl_stpbv::detail::WorkerPool(std::min(arguments.jobs, useful)).run(work);
+    if (told < jobs.size()) show(jobs[told].input);
+  });
   bar.clear();
   return failed;
 }

@@ -43,16 +43,15 @@ class Crew {
   template <class Work>
   void each(Index columns, Sequence sequence, const Work& work) {
     // Pieces are small enough to share out evenly; a path's first column costs some more.
-    std::atomic<Index> next{0};
-    auto share = [&](int k) {
+    const Index pieces = (columns + kBatchPiece - 1) / kBatchPiece;
+    pool_.share(static_cast<std::size_t>(pieces), [&](int k, std::size_t piece) {
       Worker& worker = workers_[static_cast<std::size_t>(k)];
-      for (Index start; (start = next.fetch_add(kBatchPiece)) < columns;)
-        for (Index column = start; column < std::min(start + kBatchPiece, columns); ++column) {
-          if (column == start || sequence == Sequence::independent) worker.forget();
-          work(worker, column);
-        }
-    };
-    pool_.run(share);
+      const Index start = static_cast<Index>(piece) * kBatchPiece;
+      for (Index column = start; column < std::min(start + kBatchPiece, columns); ++column) {
+        if (column == start || sequence == Sequence::independent) worker.forget();
+        work(worker, column);
+      }
+    });
   }
 
  private:

@@ -22,6 +22,22 @@ WorkerPool::~WorkerPool() {
   for (std::thread& worker : workers_) worker.join();
 }
 
+bool WorkerPool::Pieces::take(std::size_t& i) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  i = next_;
+  if (i == count_) return false;
+  ++next_;
+  if (begun_) begun_(i);  // under the same lock, so in order
+  return true;
+}
+
+void WorkerPool::Pieces::fail(std::size_t i) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (i >= firstFailed_) return;
+  firstFailed_ = i;
+  failure_ = std::current_exception();
+}
+
 void WorkerPool::start(Call call, void* work) {
   if (workers_.empty()) {
     call(work, 0);

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <atomic>
 #include <catch2/catch.hpp>
+#include <string>
 #include <thread>
 #include <vector>
 
@@ -20,6 +21,7 @@
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/robot/batch.h"
 #include "fcl_stpbv/robot/share_out.h"
+#include "fcl_stpbv/robot/worker_pool.h"
 #include "test/reference/robots.h"
 
 namespace fcl_stpbv::test {
@@ -87,6 +89,24 @@ TEST_CASE("what a caller's progress throws comes back to it, from any number of 
     shareOut(
         200, threads, [](std::size_t) {}, [&](std::size_t i) { told.push_back(i); });
     CHECK((told.size() == 200 && std::is_sorted(told.begin(), told.end())));
+  }
+}
+
+TEST_CASE("a pool waits for all of its work before it throws what a piece has thrown, and works on") {
+  for (const int threads : {1, 2, 4}) {
+    WorkerPool pool(threads);
+    for (int round = 0; round < 100; ++round) {
+      std::atomic<int> done = 0;
+      const auto work = [&] {
+        pool.share(50, [&](int k, std::size_t i) {
+          if (k < 0 || k >= pool.threads()) throw Error("no such thread");
+          if (i >= 20 && i < 30) throw Error("piece " + std::to_string(i));
+          ++done;
+        });
+      };
+      CHECK_THROWS_WITH(work(), "piece 20");
+      CHECK(done == 40);
+    }
   }
 }
 
