@@ -4,6 +4,9 @@
 #include "fcl_stpbv/report/kept_list.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
 #include <sstream>
 #include <string>
 
@@ -133,25 +136,54 @@ std::vector<double> toNumbers(const std::vector<PairEntry>& list) {
   return numbers;
 }
 
-std::vector<PairEntry> toList(const std::vector<double>& numbers, std::size_t coordinates) {
+/// Reads numbers from a file one by one. None of them is trusted.
+class Numbers {
+ public:
+  explicit Numbers(const double* first) : next_(first) {}
+
+  double any() { return *next_++; }
+  /// A whole number from `least` to `most`; else fine() becomes false.
+  int whole(int least, int most) {
+    const double value = any();
+    const bool fits = value >= least && value <= most && value == std::trunc(value);
+    fine_ = fine_ && fits;
+    return fits ? static_cast<int>(value) : least;
+  }
+  Eigen::VectorXd list(std::size_t count) {
+    const double* const first = next_;
+    next_ += count;
+    return Eigen::Map<const Eigen::VectorXd>(first, static_cast<Eigen::Index>(count));
+  }
+  bool fine() const { return fine_; }
+
+ private:
+  const double* next_;
+  bool fine_ = true;
+};
+
+/// None for numbers that are no list of this robot's pairs.
+std::optional<std::vector<PairEntry>> toList(const std::vector<double>& numbers, std::size_t links,
+                                             std::size_t obstacles, std::size_t coordinates) {
+  if (numbers.size() % (kFields + coordinates) != 0) return std::nullopt;
+  constexpr int kMost = std::numeric_limits<int>::max();
   std::vector<PairEntry> list(numbers.size() / (kFields + coordinates));
-  const double* from = numbers.data();
-  const auto whole = [&from] { return static_cast<int>(*from++); };
+  Numbers from(numbers.data());
   for (PairEntry& e : list) {
-    e.link1 = whole();
-    e.link2 = whole();
-    e.obstacle = whole() != 0;
-    e.reason = static_cast<PairReason>(whole());
-    e.samples = whole();
-    e.collisions = whole();
-    e.minDistance = *from++;
-    e.byDescent = whole() != 0;
-    e.neutralDistance = *from++;
-    e.boxes = static_cast<long>(*from++);
-    e.security = *from++;
-    e.influence = *from++;
-    e.closest = Eigen::Map<const Eigen::VectorXd>(from, static_cast<Eigen::Index>(coordinates));
-    from += coordinates;
+    e.link1 = from.whole(0, static_cast<int>(links) - 1);
+    e.link2 = from.whole(0, kMost);
+    e.obstacle = from.whole(0, 1) != 0;
+    if (at(e.link2) >= (e.obstacle ? obstacles : links)) return std::nullopt;
+    e.reason = static_cast<PairReason>(from.whole(0, static_cast<int>(PairReason::neverProven)));
+    e.samples = from.whole(0, kMost);
+    e.collisions = from.whole(0, kMost);
+    e.minDistance = from.any();
+    e.byDescent = from.whole(0, 1) != 0;
+    e.neutralDistance = from.any();
+    e.boxes = from.whole(0, kMost);
+    e.security = from.any();
+    e.influence = from.any();
+    e.closest = from.list(coordinates);
+    if (!from.fine() || (!e.obstacle && e.link1 == e.link2)) return std::nullopt;
   }
   return list;
 }
@@ -174,7 +206,8 @@ std::vector<PairEntry> keptPairList(const std::shared_ptr<const Kinematics>& kin
     return toNumbers(list);
   });
   if (!list.empty()) return list;
-  return numbers.size() % (kFields + coordinates) == 0 ? toList(numbers, coordinates) : search();
+  const auto kept = toList(numbers, links, options.obstacles.size(), coordinates);
+  return kept ? *kept : search();
 }
 
 // The stored numbers: number of colliding pairs in the neutral posture and in the better one; index of the
@@ -212,18 +245,20 @@ NeutralPosture keptNeutral(const std::shared_ptr<const Kinematics>& kinematics,
   const std::size_t coordinates = at(kinematics->size());
   constexpr std::size_t kFirst = 3 + 2 * NeutralPosture::kNamed;
   if (kept.size() != kFirst && kept.size() != kFirst + coordinates) return judge();
+  constexpr int kMost = std::numeric_limits<int>::max();
+  Numbers from(kept.data());
   NeutralPosture found;
-  found.colliding = static_cast<int>(kept[0]);
-  found.collidingThere = static_cast<int>(kept[1]);
-  if (kept[2] >= 0 && kept[2] < static_cast<double>(states.size()))
-    found.state = states[static_cast<std::size_t>(kept[2])];
-  const auto links = static_cast<double>(kinematics->robot().links.size());
-  for (std::size_t i = 3; i < kFirst; i += 2)
-    if (kept[i] >= 0 && kept[i] < links && kept[i + 1] >= 0 && kept[i + 1] < links)
-      found.named.push_back({static_cast<int>(kept[i]), static_cast<int>(kept[i + 1]), false});
-  found.better = Eigen::Map<const Eigen::VectorXd>(kept.data() + kFirst,
-                                                   static_cast<Eigen::Index>(kept.size() - kFirst));
-  return found;
+  found.colliding = from.whole(0, kMost);
+  found.collidingThere = from.whole(0, kMost);
+  const int state = from.whole(-1, static_cast<int>(states.size()) - 1);
+  if (state >= 0) found.state = states[at(state)];
+  const int lastLink = static_cast<int>(kinematics->robot().links.size()) - 1;
+  for (std::size_t i = 0; i < NeutralPosture::kNamed; ++i) {
+    const int link1 = from.whole(-1, lastLink), link2 = from.whole(-1, lastLink);
+    if (link1 >= 0 && link2 >= 0) found.named.push_back({link1, link2, false});
+  }
+  found.better = from.list(kept.size() - kFirst);
+  return from.fine() ? found : judge();
 }
 
 }  // namespace fcl_stpbv::report

@@ -205,7 +205,12 @@ ConvexParts VolumeCache::parts(std::string_view content, const PartsOptions& opt
 
 RolledHull VolumeCache::convexHull(const std::vector<Eigen::Vector3d>& cloud) {
   const std::string_view content(reinterpret_cast<const char*>(cloud.data()), cloud.size() * sizeof cloud[0]);
-  return find<RolledHull>(pathOf(content, "hull"), [&cloud] { return detail::convexHull(cloud); });
+  RolledHull hull = find<RolledHull>(pathOf(content, "hull"), [&cloud] { return detail::convexHull(cloud); });
+  const auto exist = [&cloud](const std::vector<int>& points) {
+    return std::all_of(points.begin(), points.end(), [&cloud](int i) { return at(i) < cloud.size(); });
+  };
+  const bool whole = exist(hull.vertices) && std::all_of(hull.faces.begin(), hull.faces.end(), exist);
+  return whole ? hull : detail::convexHull(cloud);
 }
 
 std::vector<double> VolumeCache::numbers(std::string_view content, const std::string& kind,
