@@ -10,23 +10,19 @@
 
 #include <cerrno>
 #include <cstdio>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/io/signals_held.h"
+#include "fcl_stpbv/io/temporary_name.h"
 
 namespace fcl_stpbv::detail {
 namespace {
 
 namespace fs = std::filesystem;
 
-[[noreturn]] void refuse(const fs::path& path, int error) {
-  throw Error(path.string() + ": cannot be written: " + std::strerror(error));
-}
-
-// Removes `path`, if it is there, at the end of its own lifetime.
+// Removes what it names at the end, if it is there.
 struct Removed {
   fs::path path;
   ~Removed() {
@@ -38,12 +34,12 @@ struct Removed {
 void writeFile(const fs::path& path, const std::string& content) {
   std::error_code error;
   fs::create_directories(path.parent_path(), error);
-  if (error) refuse(path.parent_path(), error.value());
+  if (error) refuseWrite(path.parent_path(), error.value());
   errno = 0;
   std::ofstream out(path, std::ios::binary);
   out.write(content.data(), static_cast<std::streamsize>(content.size()));
   out.close();
-  if (!out) refuse(path, errno != 0 ? errno : EIO);
+  if (!out) refuseWrite(path, errno != 0 ? errno : EIO);
 }
 
 // One call flushes all files, instead of one call for each file.
@@ -52,23 +48,23 @@ void toDisk(const fs::path& folder) {
   const bool done = open >= 0 && ::syncfs(open) == 0;
   const int error = errno;
   if (open >= 0) ::close(open);
-  if (!done) refuse(folder, error);
+  if (!done) refuseWrite(folder, error);
 }
 
 void takeName(const fs::path& made, const fs::path& name) {
   struct stat old {};
   if (::stat(name.c_str(), &old) != 0) {
-    if (::rename(made.c_str(), name.c_str()) != 0) refuse(name, errno);
+    if (::rename(made.c_str(), name.c_str()) != 0) refuseWrite(name, errno);
     return;
   }
-  if (::chmod(made.c_str(), old.st_mode & 07777) != 0) refuse(name, errno);
+  if (::chmod(made.c_str(), old.st_mode & 07777) != 0) refuseWrite(name, errno);
   if (::renameat2(AT_FDCWD, made.c_str(), AT_FDCWD, name.c_str(), RENAME_EXCHANGE) == 0) return;
-  if (errno != EINVAL && errno != ENOSYS) refuse(name, errno);
-  const fs::path aside = made.string() + ".old";
-  if (::rename(name.c_str(), aside.c_str()) != 0) refuse(name, errno);
+  if (errno != EINVAL && errno != ENOSYS) refuseWrite(name, errno);
+  const fs::path aside = made.string() + ".old";  // not the name of a temporary one, which may be removed
+  if (::rename(name.c_str(), aside.c_str()) != 0) refuseWrite(name, errno);
   if (::rename(made.c_str(), name.c_str()) != 0) {
     const int error = errno;
-    if (::rename(aside.c_str(), name.c_str()) == 0) refuse(name, error);
+    if (::rename(aside.c_str(), name.c_str()) == 0) refuseWrite(name, error);
     throw Error(name.string() + ": another program has taken the name; the old folder is now " +
                 aside.string());
   }
@@ -86,10 +82,11 @@ fs::path placeOf(const std::string& folder) {
 
 // Makes an empty folder beside `name` and returns its path.
 std::string madeBeside(const fs::path& name, const std::string& folder) {
-  const fs::path parent = name.parent_path().empty() ? "." : name.parent_path();
-  std::string made = (parent / ".fcl_stpbv-XXXXXX").string();
-  if (::mkdtemp(made.data()) == nullptr) refuse(folder, errno);
-  return made;
+  for (;;) {
+    std::string made = temporaryBeside(name.string());
+    if (::mkdir(made.c_str(), 0777) == 0) return made;
+    if (errno != EEXIST) refuseWrite(folder, errno);
+  }
 }
 
 }  // namespace
@@ -103,10 +100,7 @@ void atomicWriteFolder(const std::string& folder, const FolderFiles& files) {
   const EndPutOff putOff;
   const fs::path name = placeOf(folder);
   const std::string made = madeBeside(name, folder);
-  const Removed temporary{made};  // after the exchange of names it is the old folder
-  const mode_t mask = ::umask(0);
-  ::umask(mask);
-  if (::chmod(made.c_str(), 0777 & ~mask) != 0) refuse(folder, errno);
+  const Removed temporary{made};  // after a swap the old folder
   for (const auto& [file, content] : files) writeFile(fs::path(made) / file, content);
   toDisk(made);
   takeName(made, name);

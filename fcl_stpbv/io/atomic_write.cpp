@@ -10,28 +10,19 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <atomic>
 #include <cerrno>
 #include <charconv>
 #include <chrono>
-#include <cstring>
 #include <filesystem>
 #include <ostream>
 #include <vector>
 
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/io/signals_held.h"
+#include "fcl_stpbv/io/temporary_name.h"
 
 namespace fcl_stpbv::detail {
 namespace {
-
-// The names of temporary files contain the process and a number, but not the file's own name, so that no name
-// gets too long.
-constexpr std::string_view kTemporary = ".fcl_stpbv-", kTemporaryEnd = ".tmp";
-
-[[noreturn]] void refuse(const std::string& path, int error) {
-  throw Error(path + ": cannot be written: " + std::strerror(error));
-}
 
 int writeAll(int file, std::string_view content) {
   while (!content.empty()) {
@@ -52,10 +43,10 @@ int writeAll(int file, std::string_view content) {
 void writeStraight(const std::string& path, std::string_view content) {
   const WriteSignalsHeld held;
   const int file = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
-  if (file < 0) refuse(path, errno);
+  if (file < 0) refuseWrite(path, errno);
   int error = writeAll(file, content);
   if (::close(file) != 0 && error == 0) error = errno;
-  if (error != 0) refuse(path, error);
+  if (error != 0) refuseWrite(path, error);
 }
 
 // The number of an open descriptor that the path names, or -1.
@@ -86,17 +77,10 @@ std::string target(const std::string& path) {
   return file.string();
 }
 
-std::string folderOf(const std::string& path) {
-  const std::string parent = std::filesystem::path(path).parent_path().string();
-  return parent.empty() ? "." : parent;
-}
-
-// Opens a new file beside `path`, and sets `name` to its name.
+// A new file beside `path`; its name is left in `name`.
 int openBeside(const std::string& path, mode_t mode, std::string& name) {
-  static std::atomic<unsigned> serial{0};
   for (;;) {
-    name = folderOf(path) + "/" + std::string(kTemporary) + std::to_string(::getpid()) + "-" +
-           std::to_string(serial++) + std::string(kTemporaryEnd);
+    name = temporaryBeside(path);
     const int file = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode);
     if (file >= 0 || errno != EEXIST) return file;
   }
@@ -120,14 +104,14 @@ struct Whole {
 Whole writeBeside(const std::string& file, std::string_view content, mode_t mode, const struct stat* old) {
   std::string temporary;
   const int out = openBeside(file, mode, temporary);
-  if (out < 0) refuse(file, errno);
+  if (out < 0) refuseWrite(file, errno);
   int error = writeAll(out, content);
   if (error == 0 && old && ::fchmod(out, old->st_mode & 07777) != 0) error = errno;
   if (error == 0 && ::fsync(out) != 0) error = errno;
   if (::close(out) != 0 && error == 0) error = errno;
   if (error != 0) {
     ::unlink(temporary.c_str());
-    refuse(file, error);
+    refuseWrite(file, error);
   }
   return {temporary, file};
 }
@@ -136,7 +120,7 @@ void putInPlace(const Whole& whole) {
   if (::rename(whole.temporary.c_str(), whole.file.c_str()) != 0) {
     const int error = errno;
     ::unlink(whole.temporary.c_str());
-    refuse(whole.file, error);
+    refuseWrite(whole.file, error);
   }
   syncFolder(whole.file);
 }
@@ -145,9 +129,9 @@ void putInPlace(const Whole& whole) {
 bool findOld(const std::string& path, struct stat& old) {
   if (path.empty()) throw Error("the name of a file to write is empty; give one");
   if (::stat(path.c_str(), &old) != 0) return false;
-  if (S_ISDIR(old.st_mode)) refuse(path, EISDIR);
+  if (S_ISDIR(old.st_mode)) refuseWrite(path, EISDIR);
   // A rename would replace a file that its owner made read-only.
-  if (S_ISREG(old.st_mode) && ::access(path.c_str(), W_OK) != 0) refuse(path, errno);
+  if (S_ISREG(old.st_mode) && ::access(path.c_str(), W_OK) != 0) refuseWrite(path, errno);
   return true;
 }
 
@@ -157,7 +141,7 @@ void atomicWrite(const std::string& path, std::string_view content) {
   const int descriptor = descriptorOf(path);
   if (descriptor >= 0) {
     const WriteSignalsHeld held;
-    if (const int error = writeAll(descriptor, content)) refuse(path, error);
+    if (const int error = writeAll(descriptor, content)) refuseWrite(path, error);
     return;
   }
   struct stat old {};
@@ -195,15 +179,10 @@ void sweepTemporaries(const std::string& folder) {
   constexpr auto kOld = std::chrono::hours(1);  // no write takes that long
   std::error_code error;
   for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
-    const std::string name = at->path().filename().string();
-    const bool ours =
-        name.size() > kTemporary.size() + kTemporaryEnd.size() &&
-        name.compare(0, kTemporary.size(), kTemporary) == 0 &&
-        name.compare(name.size() - kTemporaryEnd.size(), kTemporaryEnd.size(), kTemporaryEnd) == 0;
+    if (!isTemporary(at->path().filename().string())) continue;
     std::error_code ignored;
-    if (ours && fs::file_time_type::clock::now() - fs::last_write_time(at->path(), ignored) > kOld &&
-        !ignored)
-      fs::remove(at->path(), ignored);
+    const auto age = fs::file_time_type::clock::now() - fs::last_write_time(at->path(), ignored);
+    if (!ignored && age > kOld) fs::remove_all(at->path(), ignored);
   }
 }
 

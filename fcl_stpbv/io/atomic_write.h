@@ -30,7 +30,7 @@ void atomicWriteAll(const std::vector<NamedText>& files);
 /// @throws Error as above.
 void atomicWriteOwn(const std::string& path, std::string_view content);
 
-/// Removes temporary files that killed processes left in `folder` more than an hour ago.
+/// Removes temporary files and folders that killed processes left in `folder` more than an hour ago.
 void sweepTemporaries(const std::string& folder);
 
 /// Writes a tool's result: to standard output for "" and "-", else to the file.

@@ -7,9 +7,11 @@
 #include <catch2/catch.hpp>
 #include <csignal>
 #include <filesystem>
+#include <string>
 
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/io/atomic_folder.h"
+#include "fcl_stpbv/io/temporary_name.h"
 #include "test/reference/volume_files.h"
 
 using namespace fcl_stpbv;
@@ -33,6 +35,23 @@ TEST_CASE("a folder is made with its files, and replaced by exactly others") {
   REQUIRE(::stat(folder.c_str(), &status) == 0);
   CHECK((status.st_mode & 0777) == 0750);
   CHECK(around.files() == std::vector<std::string>{"out"});
+}
+
+TEST_CASE("a new folder has the permissions of any other, and a name that is taken stays as it is") {
+  const TemporaryFolder around;
+  const mode_t mask = ::umask(027);
+  // The names that the next writes would take.
+  const std::string next = temporaryBeside(around / "out");
+  const std::size_t number = next.rfind('-') + 1;
+  const int serial = std::stoi(next.substr(number));
+  for (int i = 1; i <= 3; ++i)
+    fs::create_directory(next.substr(0, number) + std::to_string(serial + i) + ".tmp");
+  atomicWriteFolder(around / "out", {{"a", "one"}});
+  struct stat status {};
+  REQUIRE(::stat((around / "out").c_str(), &status) == 0);
+  CHECK((status.st_mode & 0777) == 0750);
+  CHECK(around.files().size() == 4);
+  ::umask(mask);
 }
 
 TEST_CASE("a link to a folder stays a link") {

@@ -102,9 +102,17 @@ TEST_CASE("what a killed process left is swept up an hour later, and nothing els
   fs::create_directory(folder / "a");
   for (const char* name : {"a/.fcl_stpbv-1-0.tmp", "a/.fcl_stpbv-2-0.tmp", "a/mine.tmp"})
     put(folder / name, "x");
+  for (const char* name : {"a/.fcl_stpbv-3-0.tmp", "a/.fcl_stpbv-3-1.tmp.old"}) {  // of atomicWriteFolder()
+    fs::create_directory(folder / name);
+    put(folder / (std::string(name) + "/x"), "x");
+  }
   const auto old = fs::file_time_type::clock::now() - std::chrono::hours(2);
-  for (const char* name : {"a/.fcl_stpbv-1-0.tmp", "a/mine.tmp"}) fs::last_write_time(folder / name, old);
+  for (const char* name :
+       {"a/.fcl_stpbv-1-0.tmp", "a/mine.tmp", "a/.fcl_stpbv-3-0.tmp", "a/.fcl_stpbv-3-1.tmp.old"})
+    fs::last_write_time(folder / name, old);
   CHECK_FALSE(cached(folder / "a", 0.2));
+  CHECK_FALSE(fs::exists(folder / "a/.fcl_stpbv-3-0.tmp"));
+  CHECK(fs::exists(folder / "a/.fcl_stpbv-3-1.tmp.old/x"));  // somebody's data
   CHECK_FALSE(fs::exists(folder / "a/.fcl_stpbv-1-0.tmp"));
   CHECK(fs::exists(folder / "a/.fcl_stpbv-2-0.tmp"));
   CHECK(fs::exists(folder / "a/mine.tmp"));
