@@ -2,6 +2,8 @@
 // corners, which are moved inwards by the margin (support_patch.h). A disc with the margin as its radius
 // around each such corner lies in its contact. So a disc around each convex combination of them lies in the
 // support polygon.
+#include <utility>
+
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/posture/support_patch.h"
@@ -19,11 +21,11 @@ using Eigen::Vector3d;
 // Constraints that keep the projections of the contacts wide enough for the margin.
 class ContactRoom : public PostureRows {
  public:
-  ContactRoom(const Kinematics& kinematics, const std::vector<int>& links, std::vector<SupportPatch> patches,
-              const Eigen::Matrix3d& world)
-      : kinematics_(kinematics), links_(links), patches_(std::move(patches)), world_(world) {
+  ContactRoom(std::shared_ptr<const Kinematics> kinematics, const std::vector<int>& links,
+              std::vector<SupportPatch> patches, const Eigen::Matrix3d& world)
+      : kinematics_(std::move(kinematics)), links_(links), patches_(std::move(patches)), world_(world) {
     for (std::size_t c = 0; c < links.size(); ++c) {
-      carriers_.push_back(kinematics.dependence(links[c]));
+      carriers_.push_back(kinematics_->dependence(links[c]));
       for (int row = 0; row < patches_[c].rooms(); ++row) contactOf_.push_back(c);
     }
   }
@@ -31,7 +33,7 @@ class ContactRoom : public PostureRows {
   Kind kind() const override { return Kind::atLeast; }
   int size() const override { return static_cast<int>(contactOf_.size()); }
   std::string name(int row) const override {
-    return "stability margin within " + kinematics_.robot().links[at(links_[contactOf_[at(row)]])].name;
+    return "stability margin within " + kinematics_->robot().links[at(links_[contactOf_[at(row)]])].name;
   }
 
   void evaluate(const Point& point, Eigen::Ref<Eigen::VectorXd> values,
@@ -42,14 +44,14 @@ class ContactRoom : public PostureRows {
       for (int k = 0; k < patches_[c].rooms(); ++k, ++row) {
         values[row] = patches_[c].room(k);
         for (const Kinematics::Dependence& d : carriers_[c])
-          jacobian(row, kinematics_.motions()[at(d.motion)].coordinate) +=
+          jacobian(row, kinematics_->motions()[at(d.motion)].coordinate) +=
               patches_[c].roomRate(k, point.state.motion[at(d.motion)]);
       }
     }
   }
 
  private:
-  const Kinematics& kinematics_;
+  std::shared_ptr<const Kinematics> kinematics_;
   std::vector<int> links_;
   std::vector<SupportPatch> patches_;
   Eigen::Matrix3d world_;
@@ -68,22 +70,23 @@ struct StaticStability::Patches {
   std::vector<SupportPatch> list;
 };
 
-StaticStability::StaticStability(const Kinematics& kinematics, const std::vector<Contact>& contacts,
-                                 double margin, int firstWeight, const Eigen::Matrix3d& world)
-    : kinematics_(kinematics),
-      centre_(kinematics),
+StaticStability::StaticStability(std::shared_ptr<const Kinematics> kinematics,
+                                 const std::vector<Contact>& contacts, double margin, int firstWeight,
+                                 const Eigen::Matrix3d& world)
+    : kinematics_(std::move(kinematics)),
+      centre_(*kinematics_),
       patches_(std::make_shared<Patches>()),
       world_(world),
       firstWeight_(firstWeight),
-      centreJacobian_(3, kinematics.size()) {
+      centreJacobian_(3, kinematics_->size()) {
   for (std::size_t c = 0; c < contacts.size(); ++c) {
     const Contact& contact = contacts[c];
-    detail::requireLink("StaticStability", contact.link, kinematics.robot());
+    detail::requireLink("StaticStability", contact.link, kinematics_->robot());
     patches_->links.push_back(contact.link);
     patches_->list.push_back(
         within("contacts[" + std::to_string(c) + "]", [&] { return SupportPatch(contact.points, margin); }));
     weights_ += patches_->list.back().corners();
-    carriers_.push_back(kinematics.dependence(contact.link));
+    carriers_.push_back(kinematics_->dependence(contact.link));
   }
   if (weights_ == 0) throw Error("there are no contacts; give some points of some links");
 }
@@ -114,11 +117,11 @@ void StaticStability::evaluate(const Point& point, Eigen::Ref<Eigen::VectorXd> v
       values[2] += point.x[weight];
       jacobian.col(weight).head<3>() << away, 1;
       for (const Kinematics::Dependence& d : carriers_[c])
-        jacobian.col(kinematics_.motions()[at(d.motion)].coordinate).head<2>() -=
+        jacobian.col(kinematics_->motions()[at(d.motion)].coordinate).head<2>() -=
             point.x[weight] * patch.cornerRate(k, point.state.motion[at(d.motion)]);
     }
   }
-  jacobian.topLeftCorner(2, kinematics_.size()) += (values[2] + 1) * (world_.topRows<2>() * centreJacobian_);
+  jacobian.topLeftCorner(2, kinematics_->size()) += (values[2] + 1) * (world_.topRows<2>() * centreJacobian_);
 }
 
 }  // namespace fcl_stpbv

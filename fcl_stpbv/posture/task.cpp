@@ -151,7 +151,7 @@ PostureSetup placed(const PostureTask& task, const PostureScene& scene) {
         {linkNamed(task.contacts[i].link, scene, where + ".contacts[" + std::to_string(i) + "].link"),
          task.contacts[i].points});
   const auto stability = within(where, [&] {
-    return std::make_shared<StaticStability>(*kinematics, contacts, task.stabilityMargin,
+    return std::make_shared<StaticStability>(kinematics, contacts, task.stabilityMargin,
                                              setup.problem->variables(), task.toWorld);
   });
   setup.problem->addVariables(stability->weights());

@@ -63,15 +63,14 @@ std::vector<Eigen::Vector3d> shrunk(const std::vector<Eigen::Vector3d>& points, 
 /// polygon's edges, even if contacts are tilted.
 class StaticStability : public PostureRows {
  public:
-  /// Keeps a reference to `kinematics`. `margin` in m; if it is above 0, add room() to the problem too.
-  /// `world` rotates the world axes of `kinematics` into axes with z upwards. @throws Error if the margin
-  /// leaves nothing of a contact, and for a link that does not exist.
-  StaticStability(const Kinematics& kinematics, const std::vector<Contact>& contacts, double margin,
-                  int firstWeight, const Eigen::Matrix3d& world = Eigen::Matrix3d::Identity());
+  /// `margin` in m; if it is above 0, add room() to the problem too. `world` rotates the world axes of
+  /// `kinematics` into axes with z upwards. @throws Error if the margin leaves nothing of a contact, and for
+  /// a link that does not exist.
+  StaticStability(std::shared_ptr<const Kinematics> kinematics, const std::vector<Contact>& contacts,
+                  double margin, int firstWeight, const Eigen::Matrix3d& world = Eigen::Matrix3d::Identity());
 
   /// Inequality constraints that keep the projection of each contact along z wide enough for the margin, and
-  /// each contact at least 3 degrees from upright. Null if the margin is 0. They too keep a reference to
-  /// `kinematics`.
+  /// each contact at least 3 degrees from upright. Null if the margin is 0.
   std::shared_ptr<PostureRows> room() const;
   /// Number of weights, one per contact point.
   int weights() const { return weights_; }
@@ -83,7 +82,7 @@ class StaticStability : public PostureRows {
  private:
   struct Patches;  // of the contacts
 
-  const Kinematics& kinematics_;
+  std::shared_ptr<const Kinematics> kinematics_;
   CentreOfMass centre_;
   std::shared_ptr<Patches> patches_;
   std::vector<std::vector<Kinematics::Dependence>> carriers_;  // of each contact

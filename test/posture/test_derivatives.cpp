@@ -132,11 +132,25 @@ TEST_CASE("static stability's derivatives agree with differences") {
       contacts.push_back({scene.robot->link(link),
                           {randomPoint(random, 0.1), randomPoint(random, 0.1), randomPoint(random, 0.1)}});
     const auto problem = problemOf(kinematics);
-    const auto rows = std::make_shared<StaticStability>(*kinematics, contacts, 0.0, problem->variables());
+    const auto rows = std::make_shared<StaticStability>(kinematics, contacts, 0.0, problem->variables());
     CHECK(problem->addVariables(rows->weights()) == kinematics->size());
     problem->add(rows);
     CHECK(worstEquality(*problem, randomVariables(*problem, random)) < kAgree);
   }
+}
+
+TEST_CASE("static stability and its room keep the robot that they need") {
+  const PostureScene scene = hrp2Scene();
+  const int foot = scene.robot->link("LLEG_LINK5");
+  auto kinematics = std::make_shared<const Kinematics>(scene.robot, BaseMotion::floating);
+  const std::weak_ptr<const Kinematics> watched = kinematics;
+  const std::vector<Eigen::Vector3d> sole{{0, 0, 0}, {0.2, 0, 0}, {0.2, 0.1, 0}, {0, 0.1, 0}};
+  auto stability = std::make_shared<StaticStability>(kinematics, std::vector<Contact>{{foot, sole}}, 0.01, 0);
+  const std::shared_ptr<PostureRows> room = stability->room();
+  kinematics.reset();
+  CHECK_FALSE(watched.expired());
+  stability.reset();
+  CHECK(room->name(0) == "stability margin within LLEG_LINK5");
 }
 
 TEST_CASE("the centre of mass is that of the links, and of the whole mass") {
@@ -202,11 +216,11 @@ TEST_CASE("sizes, links and margins that are wrong are refused by name") {
     placement.name = "hand";
     placement.link = link;
     refused([&] { PlacementRows(*kinematics, placement); }, "placement 'hand': " + none);
-    refused([&] { StaticStability(*kinematics, {{link, sole}}, 0, n); }, "StaticStability: " + none);
+    refused([&] { StaticStability(kinematics, {{link, sole}}, 0, n); }, "StaticStability: " + none);
   }
   for (const double margin : {-0.01, std::nan("")}) {
     refused([&] { shrunk(sole, margin); }, "a contact's margin: got");
-    refused([&] { StaticStability(*kinematics, {{0, sole}}, margin, n); }, "a contact's margin: got");
+    refused([&] { StaticStability(kinematics, {{0, sole}}, margin, n); }, "a contact's margin: got");
   }
 }
 
