@@ -58,7 +58,7 @@ constraints.evaluate(q, d, jacobian);                // d(q), J(q)
   // clang-format off
 CollisionChecker checker(kinematics, geometry, selfPairs(*robot, *geometry, srdf.get()), {}, 0.005);   // obstacles; margin 5 mm
 checker.collides(q);                                 // yes or no
-if (auto hit = checker.firstHit(q)) checker.name(hit->pair);
+if (auto hit = checker.firstHit(q)) checker.name(hit->pair);   // of its two bodies; says so if q is no configuration
 checker.minDistance(q);                              // least of all pairs
 
 CheckerBatch batch(checker, 2);                      // two threads

@@ -83,9 +83,10 @@ void CollisionChecker::Impl::addPair(const CheckedPair& pair) {
 }
 
 std::string CollisionChecker::Impl::name(int pair) const {
+  if (pair == Hit().pair) return "(q is not a valid configuration)";
   if (pair < 0 || at(pair) >= pairs_.size())
     throw Error("CollisionChecker: there is no pair " + std::to_string(pair) + " of " +
-                std::to_string(pairs_.size()) + "; a hit has none where q is no configuration");
+                std::to_string(pairs_.size()));
   return nameOf(pairs_[at(pair)], *geometry_, obstacles_);
 }
 

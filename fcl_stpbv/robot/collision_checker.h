@@ -58,8 +58,8 @@ class CollisionChecker {
   const std::vector<CheckedPair>& pairs() const;
   /// The robot.
   const Kinematics& kinematics() const;
-  /// The names of a pair's bodies. @throws Error for an index that does not exist, such as the -1 of a Hit
-  /// without a pair.
+  /// The names of a pair's bodies, for the index in any Hit: for its -1, a text that says that q is not a
+  /// valid configuration. @throws Error for other indices that do not exist.
   std::string name(int pair) const;
 
   /// The margin (m).
@@ -69,7 +69,8 @@ class CollisionChecker {
 
   /// Whether any pair is not known to be clear.
   bool collides(const ConstVector& q);
-  /// A pair that is not known to be clear: the first one found. No value if all pairs are clear.
+  /// A pair that is not known to be clear: the first one found. No value if all pairs are clear. A Hit with
+  /// pair -1 if q is not a valid configuration.
   std::optional<Hit> firstHit(const ConstVector& q);
   /// All such pairs, in ascending order. A single Hit with pair -1 if q is not a valid configuration.
   const std::vector<Hit>& allHits(const ConstVector& q);

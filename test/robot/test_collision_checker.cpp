@@ -200,6 +200,8 @@ TEST_CASE("a configuration that is none is never clear") {
       if (!other.allFinite()) {
         REQUIRE(checker.firstHit(other));
         CHECK(checker.firstHit(other)->pair == -1);
+        if (const auto hit = checker.firstHit(other))  // as docs/robot.md has it
+          CHECK(checker.name(hit->pair) == "(q is not a valid configuration)");
         CHECK(checker.allHits(other).size() == 1);
       }
       CHECK((turns || checker.minDistance(other) == kLowest));
@@ -235,7 +237,7 @@ TEST_CASE("a checker without pairs, with a pair of nothing, or with a margin tha
   CollisionChecker checker(p.kinematics, p.geometry, p.pairs);
   CHECK_THROWS_AS(checker.setMargin(std::nan("")), Error);
   CHECK(checker.name(0).find(" - ") != std::string::npos);
-  for (const int pair : {-1, static_cast<int>(checker.pairs().size())})
+  for (const int pair : {-2, static_cast<int>(checker.pairs().size())})
     CHECK_THROWS_WITH(checker.name(pair), Catch::Contains("no pair " + std::to_string(pair)));
 }
 
