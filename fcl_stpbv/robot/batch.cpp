@@ -69,6 +69,7 @@ class ConstraintsBatch::Impl : public Crew<CollisionConstraints> {
 ConstraintsBatch::ConstraintsBatch(const CollisionConstraints& constraints, int threads)
     : impl_(std::make_unique<Impl>(constraints, threads)) {}
 ConstraintsBatch::ConstraintsBatch(ConstraintsBatch&&) noexcept = default;
+ConstraintsBatch& ConstraintsBatch::operator=(ConstraintsBatch&&) noexcept = default;
 ConstraintsBatch::~ConstraintsBatch() = default;
 
 bool ConstraintsBatch::compute(const Configurations& q, Sequence sequence, Matrix d, Matrix* values) {
@@ -103,6 +104,7 @@ class CheckerBatch::Impl : public Crew<CollisionChecker> {
 CheckerBatch::CheckerBatch(const CollisionChecker& checker, int threads)
     : impl_(std::make_unique<Impl>(checker, threads)) {}
 CheckerBatch::CheckerBatch(CheckerBatch&&) noexcept = default;
+CheckerBatch& CheckerBatch::operator=(CheckerBatch&&) noexcept = default;
 CheckerBatch::~CheckerBatch() = default;
 
 void CheckerBatch::collides(const Configurations& q, Sequence sequence, Verdicts hit) {

@@ -31,8 +31,10 @@ class ConstraintsBatch {
 
   /// @throws Error unless `threads` is from 1 to 256.
   ConstraintsBatch(const CollisionConstraints& constraints, int threads);
-  /// Moves the contents of another object, which may only be destroyed afterwards.
+  /// Moves the contents of another object, which may only be destroyed or assigned to afterwards.
   ConstraintsBatch(ConstraintsBatch&&) noexcept;
+  /// The same.
+  ConstraintsBatch& operator=(ConstraintsBatch&&) noexcept;
   ~ConstraintsBatch();
 
   /// Distances (m): `q` has one configuration per column, and `d` (rows() x N) gets one column for each. For
@@ -56,8 +58,10 @@ class CheckerBatch {
 
   /// @throws Error unless `threads` is from 1 to 256.
   CheckerBatch(const CollisionChecker& checker, int threads);
-  /// Moves the contents of another object, which may only be destroyed afterwards.
+  /// Moves the contents of another object, which may only be destroyed or assigned to afterwards.
   CheckerBatch(CheckerBatch&&) noexcept;
+  /// The same.
+  CheckerBatch& operator=(CheckerBatch&&) noexcept;
   ~CheckerBatch();
 
   /// For each configuration, whether it collides; see CollisionChecker::collides.

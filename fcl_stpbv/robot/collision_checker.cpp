@@ -111,6 +111,7 @@ CollisionChecker::CollisionChecker(std::shared_ptr<const Kinematics> kinematics,
 CollisionChecker::CollisionChecker(const CollisionChecker& other)
     : impl_(std::make_unique<Impl>(*other.impl_)) {}
 CollisionChecker::CollisionChecker(CollisionChecker&&) noexcept = default;
+CollisionChecker& CollisionChecker::operator=(CollisionChecker&&) noexcept = default;
 CollisionChecker::~CollisionChecker() = default;
 
 const std::vector<CheckedPair>& CollisionChecker::pairs() const { return impl_->pairs(); }

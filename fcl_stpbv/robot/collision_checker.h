@@ -50,8 +50,10 @@ class CollisionChecker {
   /// Copies the caches too.
   CollisionChecker(const CollisionChecker& other);
   CollisionChecker& operator=(const CollisionChecker&) = delete;
-  /// Moves the contents of another object, which may only be destroyed afterwards.
+  /// Moves the contents of another object, which may only be destroyed or assigned to afterwards.
   CollisionChecker(CollisionChecker&&) noexcept;
+  /// The same.
+  CollisionChecker& operator=(CollisionChecker&&) noexcept;
   ~CollisionChecker();
 
   /// The pairs given.

@@ -131,6 +131,10 @@ class LinkParts {
   /// `whole` must not have parts yet. `cacheFolder`: see GeometryOptions::cacheFolder; "" for no cache.
   explicit LinkParts(std::shared_ptr<const RobotGeometry> whole,
                      const std::string& cacheFolder = defaultCacheFolder());
+  /// Moves the contents of another object, which may only be destroyed or assigned to afterwards.
+  LinkParts(LinkParts&&) noexcept;
+  /// The same.
+  LinkParts& operator=(LinkParts&&) noexcept;
   ~LinkParts();
 
   /// The parts of one whole body, split into at most `most` parts. They have the radii of the body, or are

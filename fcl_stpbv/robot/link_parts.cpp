@@ -104,6 +104,8 @@ class LinkParts::Store {
 LinkParts::LinkParts(std::shared_ptr<const RobotGeometry> whole, const std::string& cacheFolder)
     : whole_(std::move(whole)), store_(std::make_unique<Store>(*whole_, cacheFolder)) {}
 
+LinkParts::LinkParts(LinkParts&&) noexcept = default;
+LinkParts& LinkParts::operator=(LinkParts&&) noexcept = default;
 LinkParts::~LinkParts() = default;
 
 const std::vector<Body>& LinkParts::of(int body, int most) {

@@ -218,6 +218,7 @@ MotionCheck::MotionCheck(std::shared_ptr<const Kinematics> kinematics,
     : impl_(std::make_unique<Impl>(std::move(kinematics), std::move(geometry), std::move(pairs),
                                    std::move(obstacles))) {}
 MotionCheck::MotionCheck(MotionCheck&&) noexcept = default;
+MotionCheck& MotionCheck::operator=(MotionCheck&&) noexcept = default;
 MotionCheck::~MotionCheck() = default;
 
 const std::vector<CheckedPair>& MotionCheck::pairs() const { return impl_->pairs(); }

@@ -35,8 +35,10 @@ class MotionCheck {
   /// names a body or an obstacle that does not exist.
   MotionCheck(std::shared_ptr<const Kinematics> kinematics, std::shared_ptr<const RobotGeometry> geometry,
               std::vector<CheckedPair> pairs, std::vector<Obstacle> obstacles = {});
-  /// Moves the contents of another object, which may only be destroyed afterwards.
+  /// Moves the contents of another object, which may only be destroyed or assigned to afterwards.
   MotionCheck(MotionCheck&&) noexcept;
+  /// The same.
+  MotionCheck& operator=(MotionCheck&&) noexcept;
   ~MotionCheck();
 
   /// The pairs given.

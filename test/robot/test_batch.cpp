@@ -2,9 +2,12 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
+#include <type_traits>
+#include <utility>
 
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/robot/batch.h"
+#include "fcl_stpbv/robot/motion_check.h"
 #include "test/reference/robots.h"
 
 using namespace fcl_stpbv;
@@ -13,6 +16,11 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 namespace {
+
+template <class Type>
+struct Tag {
+  using type = Type;
+};
 
 using Verdicts = Eigen::Array<bool, Eigen::Dynamic, 1>;
 
@@ -105,6 +113,25 @@ TEST_CASE("a batch's smooth constraints have their rows too") {
   REQUIRE(batch.evaluateValues(q, Sequence::path, d, values));
   for (int i = 0; i < 100; ++i) CHECK(d(rows.rows() - 1, i) == q(1, i) + q(2, i));
   CHECK((values.bottomRows(2).array() == 1).all());
+}
+
+TEST_CASE("what checks a robot can be moved, and replaced by another one") {
+  const auto movable = [](auto... type) {
+    return ((std::is_nothrow_move_constructible_v<typename decltype(type)::type> &&
+             std::is_nothrow_move_assignable_v<typename decltype(type)::type>)&&...);
+  };
+  CHECK(movable(Tag<CollisionChecker>(), Tag<MotionCheck>(), Tag<ConstraintsBatch>(), Tag<CheckerBatch>(),
+                Tag<LinkParts>()));
+  const Problem first = problem(robots()[0]), second = problem(robots()[1]);
+  CollisionChecker checker(first.kinematics, first.geometry, first.pairs);
+  CheckerBatch batch(checker, 2);
+  CollisionChecker other(second.kinematics, second.geometry, second.pairs);
+  batch = CheckerBatch(other, 3);
+  const MatrixXd q = configurations(*second.kinematics, Sequence::independent, 100);
+  Verdicts hit(q.cols());
+  batch.collides(q, Sequence::independent, hit);
+  checker = std::move(other);
+  for (Eigen::Index i = 0; i < q.cols(); ++i) CHECK(checker.collides(q.col(i)) == hit[i]);
 }
 
 TEST_CASE("matrices of a wrong size and no threads are refused") {
