@@ -92,9 +92,8 @@ class ElementContacts {
 
 std::size_t collide(const CollisionGeometryd* geometry1, const Transform3d& pose1,
                     const CollisionGeometryd* geometry2, const Transform3d& pose2,
-                    const CollisionRequestd& request, CollisionResultd& result, PairCache* cache,
-                    bool finite) {
-  Contacts contacts(request, result, cache);
+                    const CollisionRequestd& request, CollisionResultd& result, const QueryContext& context) {
+  Contacts contacts(request, result, context.cache);
   if (contacts.full() || !isOccupied(*geometry1) || !isOccupied(*geometry2)) return result.numContacts();
   Contactd unknown(geometry1, geometry2, Contactd::NONE, Contactd::NONE);
   unknown.normal.setZero();
@@ -105,8 +104,8 @@ std::size_t collide(const CollisionGeometryd* geometry1, const Transform3d& pose
     contacts.add(bodyA, bodyB, unknown);
     return result.numContacts();
   }
-  const PosedPair pair(*geometry1, pose1, *geometry2, pose2, finite);
-  if (!pair.valid || !(finite || pair.finite())) {
+  const PosedPair pair(*geometry1, pose1, *geometry2, pose2, context.finite);
+  if (!pair.valid || !(context.finite || pair.finite())) {
     result.addContact(unknown);
     return result.numContacts();
   }
@@ -117,18 +116,19 @@ std::size_t collide(const CollisionGeometryd* geometry1, const Transform3d& pose
 }
 
 std::size_t collide(const fcl::CollisionObjectd* object1, const fcl::CollisionObjectd* object2,
-                    const CollisionRequestd& request, CollisionResultd& result, PairCache* cache,
-                    bool finite) {
+                    const CollisionRequestd& request, CollisionResultd& result, const QueryContext& context) {
   return collide(object1->collisionGeometry().get(), object1->getTransform(),
-                 object2->collisionGeometry().get(), object2->getTransform(), request, result, cache, finite);
+                 object2->collisionGeometry().get(), object2->getTransform(), request, result, context);
 }
 
 bool collisionCallback(fcl::CollisionObjectd* object1, fcl::CollisionObjectd* object2, void* data) {
   CollisionData& query = *static_cast<CollisionData*>(data);
   if (query.done || (query.leaveOut && query.leaveOut(object1, object2))) return query.done;
-  PairCache* cache = query.caches ? &query.caches->of(object1, object2) : nullptr;
-  query.done = collide(object1, object2, query.request, query.result, cache, query.finite) >=
-               query.request.num_max_contacts;
+  QueryContext context;
+  context.cache = query.caches ? &query.caches->of(object1, object2) : nullptr;
+  context.finite = query.finite;
+  query.done =
+      collide(object1, object2, query.request, query.result, context) >= query.request.num_max_contacts;
   return query.done;
 }
 

@@ -25,15 +25,16 @@ namespace fcl_stpbv {
 /// planes) also counts as a contact, because it is not known to be clear. With `enable_contact` its depth is
 /// infinite; its normal is zero. A geometry that FCL marks as free or unknown (`cost_density` below
 /// `threshold_occupied`) has no contacts, as in FCL; in an octree each cell has its own mark. Cost sources
-/// are not made, and the other fields of the request have no effect. `finite`: see QueryContext.
+/// are not made, and the other fields of the request have no effect. Of the context, `cache` and `finite` are
+/// used.
 std::size_t collide(const fcl::CollisionObjectd* object1, const fcl::CollisionObjectd* object2,
                     const fcl::CollisionRequestd& request, fcl::CollisionResultd& result,
-                    PairCache* cache = nullptr, bool finite = false);
-/// collide() for two geometries at their poses.
+                    const QueryContext& context = {});
+/// The same for two geometries at their poses.
 std::size_t collide(const fcl::CollisionGeometryd* geometry1, const fcl::Transform3d& pose1,
                     const fcl::CollisionGeometryd* geometry2, const fcl::Transform3d& pose2,
                     const fcl::CollisionRequestd& request, fcl::CollisionResultd& result,
-                    PairCache* cache = nullptr, bool finite = false);
+                    const QueryContext& context = {});
 
 /// For generic code that calls `collide<double>(...)`: the same as the function above. `float` is a compile
 /// error with an explanation.

@@ -96,4 +96,10 @@ bool hessian(const fcl::CollisionObjectd& object1, const fcl::CollisionObjectd& 
                  object2.getTransform(), d, result);
 }
 
+bool rate(const fcl::CollisionObjectd& object1, const fcl::CollisionObjectd& object2, const DistanceAnswer& d,
+          const BodyTwists& twists, DistanceRate& result) {
+  return rate(*object1.collisionGeometry(), object1.getTransform(), *object2.collisionGeometry(),
+              object2.getTransform(), d, twists, result);
+}
+
 }  // namespace fcl_stpbv

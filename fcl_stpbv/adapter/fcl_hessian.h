@@ -25,4 +25,8 @@ bool rate(const fcl::CollisionGeometryd& geometry1, const fcl::Transform3d& pose
           const fcl::CollisionGeometryd& geometry2, const fcl::Transform3d& pose2, const DistanceAnswer& d,
           const BodyTwists& twists, DistanceRate& result);
 
+/// The same for two collision objects.
+bool rate(const fcl::CollisionObjectd& object1, const fcl::CollisionObjectd& object2, const DistanceAnswer& d,
+          const BodyTwists& twists, DistanceRate& result);
+
 }  // namespace fcl_stpbv

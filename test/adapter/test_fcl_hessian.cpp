@@ -178,7 +178,7 @@ TEST_CASE("there is no Hessian of parallel faces, of meshes that overlap, of no 
   CHECK_FALSE(hessian(*body, above, *ground, at, d, h));
 }
 
-TEST_CASE("the Hessian of two objects is that of their geometries at their poses") {
+TEST_CASE("the Hessian and rates of two objects are those of their geometries at their poses") {
   const auto body = std::make_shared<StpBvGeometry>(StpBv::build(box(0.2, 0.3, 0.4)));
   const fcl::CollisionObjectd one(body, pose(Eigen::Matrix3d::Identity(), {0, 0, 0})),
       two(std::make_shared<fcl::Boxd>(0.1, 0.2, 0.3), pose(Random(3).rotation(), {0, 0.1, 1}));
@@ -188,6 +188,15 @@ TEST_CASE("the Hessian of two objects is that of their geometries at their poses
   REQUIRE(hessian(*one.collisionGeometry(), one.getTransform(), *two.collisionGeometry(), two.getTransform(),
                   d, same));
   CHECK(h.matrix == same.matrix);
+
+  BodyTwists twists;
+  twists << 0.1, -0.2, 0.3, 0.4, 0.5, -0.6, -0.3, 0.2, 0.1, 0.6, -0.5, 0.4;
+  DistanceRate moving, still;
+  REQUIRE(rate(one, two, d, twists, moving));
+  REQUIRE(rate(*one.collisionGeometry(), one.getTransform(), *two.collisionGeometry(), two.getTransform(), d,
+               twists, still));
+  CHECK(moving.normal == still.normal);
+  CHECK_FALSE(moving.normal.isZero());
 }
 
 TEST_CASE(

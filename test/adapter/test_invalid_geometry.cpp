@@ -167,7 +167,7 @@ TEST_CASE("A caller that has looked at the corners gets the same answers without
       fcl::CollisionResultd found, again;
       const fcl::CollisionRequestd request(100, true);
       CHECK(fcl_stpbv::collide(ground.get(), here, other.get(), there, request, found) ==
-            fcl_stpbv::collide(ground.get(), here, other.get(), there, request, again, nullptr, true));
+            fcl_stpbv::collide(ground.get(), here, other.get(), there, request, again, looked));
     }
   }
 }

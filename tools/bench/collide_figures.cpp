@@ -46,7 +46,7 @@ Json figures(const char* name, const Cloud& cloud, int queries, double nearest, 
   const auto ours = [&](PairCache* known) {
     return [&, known](std::size_t i) {
       fcl::CollisionResultd result;
-      return fcl_stpbv::collide(&g, poses.a[i], &g, poses.b[i], request, result, known);
+      return fcl_stpbv::collide(&g, poses.a[i], &g, poses.b[i], request, result, {known});
     };
   };
   const auto fcls = [&](std::size_t i) {

@@ -54,8 +54,8 @@ Json figures(const Named& body, const Named& shape, int queries, double nearest,
     return [&, known](std::size_t i) {
       fcl::CollisionResultd collision;
       return isDistance ? distance(a, poses.a[i], b, poses.b[i], {known}).distance
-                        : static_cast<double>(
-                              fcl_stpbv::collide(&a, poses.a[i], &b, poses.b[i], contact, collision, known));
+                        : static_cast<double>(fcl_stpbv::collide(&a, poses.a[i], &b, poses.b[i], contact,
+                                                                 collision, {known}));
     };
   };
   const std::vector<double> ns =
