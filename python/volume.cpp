@@ -4,6 +4,7 @@
 #include <limits>
 #include <optional>
 #include <sstream>
+#include <vector>
 
 #include "bodies.h"
 #include "fcl_stpbv/distance/distance.h"
@@ -52,6 +53,9 @@ void requireInside(const StpBv& volume, const std::vector<Eigen::Vector3d>& poin
 template <>
 struct pybind11::detail::type_caster<fcl_stpbv::StpBv> : fcl_stpbv::MadeCaster<fcl_stpbv::StpBv> {};
 template <>
+struct pybind11::detail::type_caster<fcl_stpbv::Verification>
+    : fcl_stpbv::MadeCaster<fcl_stpbv::Verification> {};
+template <>
 struct pybind11::detail::type_caster<fcl_stpbv::DistanceStatus>
     : fcl_stpbv::MadeCaster<fcl_stpbv::DistanceStatus> {};
 template <>
@@ -98,6 +102,16 @@ Eigen::Vector3d direction(const Floats<Eigen::Vector3d>& given) {
 std::string described(double r, double R) { return detail::formatted("r = %.6g m, R = %.6g m", r, R); }
 
 void addStpBv(py::module_& module) {
+  py::class_<Verification>(module, "Verification",
+                           "Whether a volume is what it should be; its str() says what is not.")
+      .def_readonly("ok", &Verification::ok, "whether nothing is off by more than rounding")
+      .def_readonly("message", &Verification::message, "\"ok\", or what is wrong")
+      .def_readonly("containment", &Verification::containment,
+                    "most by which a point given is less than r below the surface (m)")
+      .def("__bool__", [](const Verification& found) { return found.ok; })
+      .def("__str__", [](const Verification& found) { return found.message; })
+      .def("__repr__", [](const Verification& found) { return "<Verification: " + found.message + ">"; });
+
   py::class_<StpBv, std::shared_ptr<StpBv>>(module, "StpBv", "A volume; immutable. Its own frame.")
       .def_static(
           "build",
@@ -159,7 +173,13 @@ void addStpBv(py::module_& module) {
           "Largest and mean excess (m) over the convex hull of the vertices, or of the points it was built "
           "from; Error where one of them is outside.")
       .def(
-          "verify", [](const StpBv& volume) { return verify(volume).message; }, "\"ok\", or what is wrong.")
+          "verify",
+          [](const StpBv& volume, const std::optional<Floats<PointArray>>& points) {
+            return verify(volume, points ? toPoints(points->value) : std::vector<Eigen::Vector3d>());
+          },
+          py::arg("points") = py::none(),
+          "A Verification of the volume against its own definition, and of points that must be r below its "
+          "surface; false where something is wrong.")
       .def(py::pickle(
           [](const StpBv& volume) {
             std::ostringstream out;

@@ -89,13 +89,25 @@ def test_a_cache_does_not_change_the_answer():
         assert warm.distance == pytest.approx(cold.distance, abs=1e-15)
 
 
+def test_a_verification_is_false_where_something_is_wrong():
+    volume = box()
+    fine = volume.verify()
+    assert fine and fine.ok and (fine.message, str(fine), fine.containment) == ("ok", "ok", 0)
+    assert volume.verify(volume.vertices)
+    outside = volume.verify([[9.0, 0, 0]])
+    assert not outside and not outside.ok and outside.containment > 8
+    assert str(outside) == outside.message and "nearer to the surface" in outside.message
+    with pytest.raises(AssertionError):
+        assert outside
+
+
 def test_files_keep_every_bit(tmp_path):
     path = str(tmp_path / "box.stpbv")
     box().save(path)
     again = fcl_stpbv.StpBv.load(path)
     assert (again.r, again.R) == (0.01, 10.0)
     assert np.array_equal(again.vertices, box().vertices) and again.faces == box().faces
-    assert again.verify() == "ok"
+    assert again.verify()
 
 
 def test_what_is_printed_says_what_it_is():
@@ -235,7 +247,7 @@ def test_paths_are_text_bytes_or_path_objects(tmp_path):
     path = tmp_path / "box.stpbv"
     box().save(path)
     for given in (path, str(path), os.fsencode(path)):
-        assert fcl_stpbv.StpBv.load(given).verify() == "ok"
+        assert fcl_stpbv.StpBv.load(given).verify()
     folder = DATA / "hrp2_style"
     assert len(fcl_stpbv.load_points(folder / "meshes" / "HEAD_LINK1.dae")) > 4
     robot = fcl_stpbv.Robot(folder / "hrp2_style.urdf", folder / "hrp2_style.srdf", package_path=[folder, str(folder)])
@@ -274,7 +286,8 @@ def test_a_file_with_an_empty_name_is_not_left_out(empty):
 
 def test_an_object_whose_constructor_has_not_run_is_no_argument():
     kinds: list[Any] = [fcl_stpbv.StpBv, fcl_stpbv.PairCache, fcl_stpbv.Distance, fcl_stpbv.RadiiAdvice, fcl_stpbv.Robot, fcl_stpbv.PairProof,
-                        fcl_stpbv.PairSearch, fcl_stpbv.PostureSearch, fcl_stpbv.MotionBracket, fcl_stpbv.RowAnswer, fcl_stpbv.VelocityDamper]
+                        fcl_stpbv.PairSearch, fcl_stpbv.PostureSearch, fcl_stpbv.MotionBracket, fcl_stpbv.RowAnswer, fcl_stpbv.VelocityDamper,
+                        fcl_stpbv.Verification]
     for kind in kinds:
         unmade = kind.__new__(kind)
         for name, member in vars(kind).items():
@@ -385,7 +398,7 @@ def test_a_pickled_volume_is_the_same_bit_by_bit(protocol):
         again = pickle.loads(pickle.dumps(volume, protocol))
         assert (again.r, again.R, again.faces) == (volume.r, volume.R, volume.faces)
         assert np.array_equal(again.vertices, volume.vertices)
-        assert copy.deepcopy(again).verify() == "ok"
+        assert copy.deepcopy(again).verify()
         asked = [fcl_stpbv.distance(v, pose(), v, pose(5, 0.3)) for v in (volume, again)]
         assert asked[0].distance == asked[1].distance and np.array_equal(asked[0].gradient, asked[1].gradient)
     damaged = pickle.dumps(box()).replace(b"vertices 8", b"vertices 9")
