@@ -212,7 +212,7 @@ void addDistance(py::module_& module) {
 
   py::class_<PlacedDistance>(module, "Distance", "Answer to a query. World frame.")
       .def_readonly("status", &PlacedDistance::status)
-      .def_readonly("distance", &PlacedDistance::distance, "signed (m)")
+      .def_readonly("distance", &PlacedDistance::distance, "signed (m); minus infinity for Status.invalid")
       .def_readonly("lower", &PlacedDistance::lower, "certified")
       .def_readonly("upper", &PlacedDistance::upper, "certified")
       .def_readonly("normal", &PlacedDistance::normal, "unit, from the first body to the second")

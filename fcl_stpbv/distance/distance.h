@@ -21,7 +21,7 @@ enum class DistanceStatus {
   local,
   bounded,  ///< not solved up to rounding; the true value lies in [lower, upper]
   /// A pose is not a rigid motion (an entry of its rotation is off by more than 1e-6) or is 1e150 m away. The
-  /// bounds are infinite, everything else is zero.
+  /// distance and the bounds are infinite, everything else is zero.
   invalid,
 };
 
@@ -33,7 +33,9 @@ using TwistGradient = Eigen::Matrix<double, 6, 1, Eigen::DontAlign>;
 /// Answer to one query. World frame, metres.
 struct Distance {
   DistanceStatus status = DistanceStatus::invalid;  ///< how good the answer is
-  double distance = 0;                              ///< signed: negative where the bodies overlap
+  /// Signed: negative where the bodies overlap. Minus infinity if the status is `invalid`, so that no
+  /// comparison takes the pair for clear.
+  double distance = -std::numeric_limits<double>::infinity();
   /// Certified lower bound: the gap between the two supporting planes perpendicular to `normal`, rounded
   /// down.
   double lower = -std::numeric_limits<double>::infinity();
