@@ -55,6 +55,19 @@ enum class MotionVerdict {
   undecided,
 };
 
+/// Name of a verdict, as in reports.
+constexpr const char* toString(MotionVerdict verdict) {
+  switch (verdict) {
+    case MotionVerdict::free:
+      return "free";
+    case MotionVerdict::contact:
+      return "contact";
+    case MotionVerdict::undecided:
+      break;
+  }
+  return "undecided";
+}
+
 /// Parameters of a motion check.
 struct MotionRequest {
   /// A distance at or below it is a contact (m). Two meshes or octrees have no distance below 0, so with a

@@ -16,6 +16,7 @@
 #include <limits>
 
 #include "fcl_stpbv/adapter/mesh_boxes.h"
+#include "fcl_stpbv/convex/relative_pose.h"
 #include "fcl_stpbv/convex/vertex_set.h"
 #include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/packed.h"
@@ -32,10 +33,7 @@ using Node = ElementTree::Node;
 /// size.
 constexpr double kFit = 1e-9;
 
-constexpr double kHuge = 1e150;  // m, makeRigid()'s bound on a pose
-
-/// Whether the mesh has boxes that belong to its vertices. That is not so between FCL's begin and end of a
-/// change.
+/// Whether there is anything in it, and its boxes belong to its vertices: not between FCL's begin and end.
 template <typename BV>
 bool isBuilt(const fcl::BVHModel<BV>& mesh) {
   const fcl::BVHBuildState state = mesh.build_state;
@@ -125,7 +123,7 @@ int treeChildren(const fcl::OcTreed& tree, const Node& node, std::array<Node, 8>
 /// overflows to infinity. Zero times infinity or NaN is NaN, and so is every sum with it.
 FCL_STPBV_VECTORIZED
 bool areNumbers(const Vector3d* corner, int count) {
-  constexpr double kToEnd = std::numeric_limits<double>::max() / kHuge;
+  constexpr double kToEnd = std::numeric_limits<double>::max() / kFarthest;
   const auto load = [](const Vector3d* from, int part) {
     Packed four;
     std::memcpy(&four, from->data() + 4 * part, sizeof four);

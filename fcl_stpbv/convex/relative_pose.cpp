@@ -21,14 +21,13 @@ bool makeRotation(Rotation& rotation) {
 
 FCL_STPBV_VECTORIZED
 bool makeRigid(Eigen::Isometry3d& pose) {
-  constexpr double kHuge = 1e150;  // squares must not overflow
   Rotation rotation(pose);
   if (!rotation.isFine()) {
     if (!makeRotation(rotation)) return false;
     pose.linear() = rotation.matrix();
   }
   const Packed at = column(pose, 3), size = larger(at, -at);
-  return size[0] < kHuge && size[1] < kHuge && size[2] < kHuge;
+  return size[0] < kFarthest && size[1] < kFarthest && size[2] < kFarthest;
 }
 
 FCL_STPBV_VECTORIZED

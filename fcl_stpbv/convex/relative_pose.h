@@ -74,6 +74,9 @@ class Rotation {
 /// any other matrix: stretched, sheared, mirrored or not finite.
 bool makeRotation(Rotation& rotation);
 
+/// Bound on the coordinates of poses and vertices (m): squares must not overflow.
+constexpr double kFarthest = 1e150;
+
 /// Corrects a pose's rotation by `makeRotation` if it is off by more than rounding. False for a pose that is
 /// not a rigid motion.
 bool makeRigid(Eigen::Isometry3d& pose);
@@ -93,7 +96,7 @@ struct RelativePose {
                        ///< from the world's and from each other
 
   RelativePose(const Eigen::Isometry3d& poseA, const Eigen::Isometry3d& poseB) : toWorld(poseA) {
-    constexpr double kHuge = 1e300;  // squares must not overflow
+    constexpr double kFarthest2 = kFarthest * kFarthest;
     Packed x = column(poseB, 0), y = column(poseB, 1), z = column(poseB, 2);
     if (!(toWorld.isFine() && Rotation::isFine(x, y, z))) {
       Rotation b(x, y, z);
@@ -103,7 +106,7 @@ struct RelativePose {
     origin = column(poseA, 3);
     rotation = toWorld.relative(x, y, z);
     translation = toWorld.inverse(column(poseB, 3) - origin);
-    valid = dot(translation, translation) < kHuge && dot(origin, origin) < kHuge;
+    valid = dot(translation, translation) < kFarthest2 && dot(origin, origin) < kFarthest2;
   }
 
   /// A point of the second body in the first one's frame.

@@ -25,6 +25,21 @@ enum class DistanceStatus {
   invalid,
 };
 
+/// Name of a status, as in reports.
+constexpr const char* toString(DistanceStatus status) {
+  switch (status) {
+    case DistanceStatus::exact:
+      return "exact";
+    case DistanceStatus::local:
+      return "local";
+    case DistanceStatus::bounded:
+      return "bounded";
+    case DistanceStatus::invalid:
+      break;
+  }
+  return "invalid";
+}
+
 /// Derivative of the distance with respect to a body's twist, [linear; angular], about the origin of the
 /// body's frame, in world axes. Unaligned, so that its memory layout does not depend on the caller's compiler
 /// flags.

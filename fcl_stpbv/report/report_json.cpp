@@ -20,30 +20,13 @@ nlohmann::json orNull(double value) {
   return std::isfinite(value) ? nlohmann::json(value) : nlohmann::json();
 }
 
-nlohmann::json orNull(const std::string& text) {
-  return text.empty() ? nlohmann::json() : nlohmann::json(text);
-}
-
-const char* statusName(DistanceStatus status) {
-  switch (status) {
-    case DistanceStatus::exact:
-      return "exact";
-    case DistanceStatus::local:
-      return "local";
-    case DistanceStatus::bounded:
-      return "bounded";
-    default:
-      return "invalid";
-  }
-}
-
 nlohmann::json trajectoryJson(const CollisionReport& report) {
   if (!report.trajectory) return {};
   const TrajectoryReport& t = *report.trajectory;
   nlohmann::json json{{"file", t.path},
                       {"way_points", t.trajectory.points.size()},
                       {"timed", t.trajectory.timed},
-                      {"verdict", verdictText(t.verdict)},
+                      {"verdict", toString(t.verdict)},
                       {"free_until", t.undecided.empty() ? t.stop.from : t.undecided.front().from},
                       {"followed_until", t.followedUntil},
                       {"closest_proven", t.closestProven},
@@ -124,7 +107,7 @@ nlohmann::json pairJson(const CollisionReport& report, const PairReport& pair) {
           {"srdf_reason", pair.srdfReason},
           {"checked", pair.checked},
           {"distance", orNull(pair.answer.distance)},
-          {"status", statusName(pair.answer.status)},
+          {"status", toString(pair.answer.status)},
           {"continuous", pair.answer.continuous},
           {"point1", numbers(pair.answer.points[0])},
           {"point2", numbers(pair.answer.points[1])},

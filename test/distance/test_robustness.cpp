@@ -110,6 +110,7 @@ TEST_CASE("A pose that is not a finite rotation and translation is reported, not
     for (const Distance& d : {distance(*a, p, *a, kOrigin, &cache), distance(*a, kOrigin, *a, p, &cache),
                               distance(*a, p, *a, p, &cache)}) {
       CHECK(d.status == DistanceStatus::invalid);
+      CHECK(std::string(toString(d.status)) == "invalid");
       CHECK(d.distance == -inf);
       CHECK(d.normal == Vector3d::Zero());
       CHECK(d.lower == -inf);
