@@ -231,6 +231,8 @@ class CollisionConstraints {
   void makeRoomForHessian();
   void prepareHessian(const ConstVector& q);
   bool rowHessian(std::size_t row);
+  void fillTwists(std::size_t row);
+  void addTwistChanges(std::size_t row, const Witness& witness);
   template <class Add>
   void openHessians(const ConstVector& q, const Add& add);
 

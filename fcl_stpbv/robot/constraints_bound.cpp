@@ -35,6 +35,56 @@ bool roundnessOf(const fcl::CollisionGeometryd& geometry, Roundness& result) {
          type == fcl::GEOM_HALFSPACE;
 }
 
+/// S = W_A + W_B + d, of both bodies' radii of curvature W and their distance d (m).
+struct RadiiSum {
+  double least;  ///< its least eigenvalue
+  double deep;   ///< depth of the overlap
+  double skew;   ///< bound on |S^-1 W|
+};
+
+/// False if nothing bounds how fast the normal and the points move.
+bool sumOf(double distance, const std::array<Roundness, 2>& round, RadiiSum& sum) {
+  sum.least = distance + round[0].least + round[1].least;
+  sum.deep = std::max(0.0, -distance);
+  if (!(sum.least > 0) || sum.deep > std::max(round[0].least, round[1].least)) return false;
+  // Two edges that cross slide the faster the smaller their angle is.
+  if (std::isinf(round[0].most) && std::isinf(round[1].most)) return false;
+  double most = distance;  // of a polyhedron only open ways count
+  for (const Roundness& one : round) most += std::isinf(one.most) ? 0 : one.most;
+  const double ratio = std::sqrt(most / sum.least);
+  sum.skew = (ratio + 1 / ratio) / 2;
+  return true;
+}
+
+/// Bounds on the velocities of the normal (1/s) and of the witness points on their bodies (m/s).
+struct Slides {
+  double turn = kInfinity, slide[2] = {0, 0};
+};
+
+Slides slidesOf(double distance, const Vector3d& n, const std::array<Vector3d, 2>& point,
+                const std::array<Roundness, 2>& round, const RadiiSum& both, const Twist& first,
+                const Twist& other) {
+  Slides result;
+  const double spin = (other.angular - first.angular).cross(n).norm();
+  for (std::size_t side = 0; side < 2; ++side) {
+    const Vector3d& x = point[side];
+    const double apart = across(velocityOf(x, other) - velocityOf(x, first), n);
+    const Roundness &own = round[side], &others = round[1 - side];
+    // Of this body's W: |S^-1 W|, and W S^-1 (S - W), the parallel sum. Where the other body's W + d may be
+    // negative this body's W + d is not, and each is what it is on the other side and a part of d.
+    double share = both.skew, sum = std::min(own.most, others.most + distance);
+    if (both.deep > others.least) {
+      share += both.deep / both.least;
+      sum = std::min(others.most, own.most + distance) + both.deep * (both.skew + share);
+    }
+    // The normal as body 1, then body 2, carries it, and what it turns against that.
+    const Vector3d carried = (side == 0 ? other : first).angular.cross(n);
+    result.turn = std::min(result.turn, carried.norm() + apart / both.least + share * spin);
+    result.slide[side] = share * apart + sum * spin;
+  }
+  return result;
+}
+
 }  // namespace
 
 double CollisionConstraints::gradientRateBound(int row) const {
@@ -50,36 +100,12 @@ double CollisionConstraints::gradientRateBound(int row) const {
   if (!roundnessOf(*geometry_->bodies[at(r.a)].geometry, round[0]) ||
       !roundnessOf(second(pairs_[at(row)]), round[1]))
     return kInfinity;
-  const double least = w.distance + round[0].least + round[1].least, deep = std::max(0.0, -w.distance);
-  if (!(least > 0) || deep > std::max(round[0].least, round[1].least)) return kInfinity;
-  // Two edges that cross slide the faster the smaller their angle is.
-  if (std::isinf(round[0].most) && std::isinf(round[1].most)) return kInfinity;
-  // W_A + W_B + d has eigenvalues between `least` and `most`; of a polyhedron only open ways count.
-  double most = w.distance;
-  for (const Roundness& one : round) most += std::isinf(one.most) ? 0 : one.most;
-  const double ratio = std::sqrt(most / least), skew = (ratio + 1 / ratio) / 2;
-
+  RadiiSum both;
+  if (!sumOf(w.distance, round, both)) return kInfinity;
   Twist first, other;
   bodyVelocities(at(row), first, other);
   const Vector3d& n = w.normal;
-  const double spin = (other.angular - first.angular).cross(n).norm();
-  double turn = kInfinity, slide[2];
-  for (std::size_t side = 0; side < 2; ++side) {
-    const Vector3d& x = w.point[side];
-    const double apart = across(velocityOf(x, other) - velocityOf(x, first), n);
-    const Roundness &own = round[side], &others = round[1 - side];
-    // Of this body's W: |S^-1 W|, and W S^-1 (S - W), the parallel sum. Where the other body's W + d may be
-    // negative this body's W + d is not, and each is what it is on the other side and a part of d.
-    double share = skew, sum = std::min(own.most, others.most + w.distance);
-    if (deep > others.least) {
-      share += deep / least;
-      sum = std::min(others.most, own.most + w.distance) + deep * (skew + share);
-    }
-    // The normal as body 1, then body 2, carries it, and what it turns against that.
-    const Vector3d carried = (side == 0 ? other : first).angular.cross(n);
-    turn = std::min(turn, carried.norm() + apart / least + share * spin);
-    slide[side] = share * apart + sum * spin;
-  }
+  const Slides slides = slidesOf(w.distance, n, w.point, round, both, first, other);
   const double speed = n.dot(velocityOf(w.point[1], other) - velocityOf(w.point[0], first));
   double sum = 0, shared = 0;  // joints may share a coordinate: those stand side by side
   for (int t = r.firstTerm; t < r.lastTerm; ++t) {
@@ -90,8 +116,9 @@ double CollisionConstraints::gradientRateBound(int row) const {
     const Vector3d lever = velocityOf(x, motion);
     // The joint's own part: how n sees the velocity change that the joint gives to the material point at x.
     const double own = std::abs(n.dot(velocityOf(x, change) + motion.angular.cross(velocityOf(x, body))));
-    const double entry = slope * (turn * lever.norm() + motion.angular.norm() * slide[term.side] + own) +
-                         std::abs(curvature * speed) * lever.norm();
+    const double entry =
+        slope * (slides.turn * lever.norm() + motion.angular.norm() * slides.slide[term.side] + own) +
+        std::abs(curvature * speed) * lever.norm();
     shared += entry;
     if (t + 1 < r.lastTerm && terms_[at(t + 1)].slot == term.slot) continue;
     sum += shared * shared;

@@ -62,6 +62,50 @@ void CollisionConstraints::prepareHessian(const ConstVector& q) {
   moving_ = false;
 }
 
+// The twist of each body that each of the row's columns gives it.
+void CollisionConstraints::fillTwists(std::size_t row) {
+  const Row& r = rows_[row];
+  const int start = rowStart_[row];
+  const Vector3d origin[2] = {pose_[at(r.a)].translation(), pose_[at(r.b)].translation()};
+  twists_.leftCols(rowStart_[row + 1] - start).setZero();
+  for (int t = r.firstTerm; t < r.lastTerm; ++t) {
+    const Term& term = terms_[at(t)];
+    const Twist& motion = state_.motion[at(term.motion)];
+    twists_.col(term.slot - start).segment<3>(6 * term.side) +=
+        motion.linear + motion.angular.cross(origin[term.side]);
+    twists_.col(term.slot - start).segment<3>(6 * term.side + 3) += motion.angular;
+  }
+}
+
+// Adds the gradient times the change of the twists as each coordinate moves.
+void CollisionConstraints::addTwistChanges(std::size_t row, const Witness& witness) {
+  const Row& r = rows_[row];
+  const int start = rowStart_[row], count = rowStart_[row + 1] - start;
+  for (int t = r.firstTerm; t < r.lastTerm; ++t) {
+    const Term& term = terms_[at(t)];
+    const int i = term.slot - start;
+    const Vector3d along = (term.side == 0 ? -1 : 1) * witness.normal;
+    const Vector3d moment = witness.point[at(term.side)].cross(along);
+    const Twist& motion = state_.motion[at(term.motion)];
+    const Vector3d turned = along.cross(motion.angular);  // along.(w x v) = turned.v
+    const auto add = [&](int j, double entry) {
+      square_(i, j) += entry / 2;
+      square_(j, i) += entry / 2;
+    };
+    for (int j = 0; j < count; ++j) {
+      const Twist& change = alongEach_[at(column_[at(start + j)])].motion[at(term.motion)];
+      add(j, along.dot(change.linear) + moment.dot(change.angular) +
+                 turned.dot(twists_.col(j).segment<3>(6 * term.side)));
+    }
+    // Seen from the link that carries both bodies: what moves that one is no change of the twists.
+    for (int c = r.firstCommon; c < r.lastCommon; ++c) {
+      const Twist& by = state_.motion[at(common_[at(c)].motion)];
+      const Vector3d linear = by.angular.cross(motion.linear) + by.linear.cross(motion.angular);
+      add(common_[at(c)].slot - start, -along.dot(linear) - moment.dot(by.angular.cross(motion.angular)));
+    }
+  }
+}
+
 // Along a line of q the poses' second derivatives are the pair's own at the bodies' twists and, by the
 // gradient, the change of those twists. Entries in the order of the row's columns.
 bool CollisionConstraints::rowHessian(std::size_t row) {
@@ -77,41 +121,12 @@ bool CollisionConstraints::rowHessian(std::size_t row) {
                              : fcl_stpbv::hessian(*geometry_->bodies[at(r.a)].geometry, pose1,
                                                   second(pairs_[row]), pose2, answers_[row], pair);
   if (!known) return false;
-  const Vector3d origin[2] = {pose1.translation(), pose2.translation()};
-  auto twists = twists_.leftCols(count), pushes = pushes_.leftCols(count);
-  twists.setZero();
-  for (int t = r.firstTerm; t < r.lastTerm; ++t) {
-    const Term& term = terms_[at(t)];
-    const Twist& motion = state_.motion[at(term.motion)];
-    twists.col(term.slot - start).segment<3>(6 * term.side) +=
-        motion.linear + motion.angular.cross(origin[term.side]);
-    twists.col(term.slot - start).segment<3>(6 * term.side + 3) += motion.angular;
-  }
+  fillTwists(row);
+  const auto twists = twists_.leftCols(count);
+  auto pushes = pushes_.leftCols(count);
   pushes.noalias() = pair.matrix * twists;
   h.noalias() = twists.transpose() * pushes;
-  for (int t = r.firstTerm; t < r.lastTerm; ++t) {
-    const Term& term = terms_[at(t)];
-    const int i = term.slot - start;
-    const Vector3d along = (term.side == 0 ? -1 : 1) * witness.normal;
-    const Vector3d moment = witness.point[at(term.side)].cross(along);
-    const Twist& motion = state_.motion[at(term.motion)];
-    const Vector3d turned = along.cross(motion.angular);  // along.(w x v) = turned.v
-    const auto add = [&](int j, double entry) {
-      h(i, j) += entry / 2;
-      h(j, i) += entry / 2;
-    };
-    for (int j = 0; j < count; ++j) {
-      const Twist& change = alongEach_[at(column_[at(start + j)])].motion[at(term.motion)];
-      add(j, along.dot(change.linear) + moment.dot(change.angular) +
-                 turned.dot(twists.col(j).segment<3>(6 * term.side)));
-    }
-    // Seen from the link that carries both bodies: what moves that one is no change of the twists.
-    for (int c = r.firstCommon; c < r.lastCommon; ++c) {
-      const Twist& by = state_.motion[at(common_[at(c)].motion)];
-      const Vector3d linear = by.angular.cross(motion.linear) + by.linear.cross(motion.angular);
-      add(common_[at(c)].slot - start, -along.dot(linear) - moment.dot(by.angular.cross(motion.angular)));
-    }
-  }
+  addTwistChanges(row, witness);
   double slope, curvature;
   bend(row, witness.distance, slope, curvature);
   if (slope != 1 || curvature != 0) {
