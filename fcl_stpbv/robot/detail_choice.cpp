@@ -129,8 +129,28 @@ bool DetailChoice::meets(const SceneNeed& need) { return meets(need, detailsOf(n
 
 bool DetailChoice::meets(OpenNeed& open, Details details) {
   const auto [found, isNew] = open.met.emplace(details, false);
-  if (isNew) found->second = meets(open.need, details);
+  if (isNew) found->second = mayMeet(open, details) && meets(open.need, details);
   return found->second;
+}
+
+// Parts contain the link's own shapes and cost seconds to find. So first they are replaced by these shapes.
+bool DetailChoice::mayMeet(OpenNeed& open, Details details) {
+  const auto possible = [&](Details bounds) {
+    const auto [found, isNew] = open.met.emplace(bounds, false);
+    if (!isNew) return found->second;
+    const auto given = [&](int link, Detail detail) {
+      return detail == kOwn ? std::vector<const Body*>() : bodiesOf(link, detail);
+    };
+    const LinkPair& pair = open.need.pair;
+    const auto first = given(pair.link1, bounds.first);
+    const auto second = pair.obstacle ? first : given(pair.link2, bounds.second);
+    found->second =
+        !ownShapes_.rulesOut(open.need, *kinematics_, obstacles_, bounds.first == kOwn ? nullptr : &first,
+                             bounds.second == kOwn ? nullptr : &second);
+    return found->second;
+  };
+  return (details.first < levels() || possible({kOwn, details.second})) &&
+         (details.second < levels() || possible({details.first, kOwn}));
 }
 
 void DetailChoice::raise(int link, Detail detail) {

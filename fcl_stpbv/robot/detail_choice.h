@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <memory>
 #include <set>
@@ -45,8 +46,9 @@ class DetailChoice {
   struct OpenNeed {
     SceneNeed need;
     std::size_t index;            // among all
-    std::map<Details, bool> met;  // what is known
+    std::map<Details, bool> met;  // what is known; with kOwn for whether finer and finer bodies may meet it
   };
+  static constexpr Detail kOwn = std::numeric_limits<Detail>::max();  // the link's own shapes, as if a level
 
   Detail levels() const { return static_cast<Detail>(levels_.size()); }
   Detail inParts(int most) const { return levels() + most - 2; }
@@ -57,6 +59,7 @@ class DetailChoice {
   std::vector<const Body*> bodiesOf(int link, Detail detail);
   bool meets(const SceneNeed& need, Details details);
   bool meets(OpenNeed& open, Details details);
+  bool mayMeet(OpenNeed& open, Details details);
   bool refineOneLink(std::vector<OpenNeed>& open, Detail detail);
   bool refineBothLinks(OpenNeed& open);
   void raise(int link, Detail detail);

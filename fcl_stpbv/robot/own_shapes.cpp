@@ -16,6 +16,7 @@ double marginOf(const Body& body) { return body.volume && !body.file.empty() ? b
 }  // namespace
 
 const fcl::CollisionGeometryd& OwnShapes::shape(int body) {
+  const std::lock_guard<std::mutex> lock(mutex_);
   std::shared_ptr<const fcl::CollisionGeometryd>& shape = shapes_[body];
   if (shape) return *shape;
   const Body& whole = whole_->bodies[at(body)];
@@ -26,30 +27,39 @@ const fcl::CollisionGeometryd& OwnShapes::shape(int body) {
   return *shape;
 }
 
+std::vector<OwnShapes::Placed> OwnShapes::placed(int link, const Eigen::Isometry3d& pose,
+                                                 const Bodies* bodies) {
+  std::vector<Placed> all;
+  if (bodies) {
+    for (const Body* body : *bodies) all.push_back({body->geometry.get(), pose * body->pose, 0});
+    return all;
+  }
+  const auto [first, last] = whole_->of(link);
+  for (int i = first; i < last; ++i) {
+    const Body& body = whole_->bodies[at(i)];
+    all.push_back({&shape(i), pose * body.pose, marginOf(body)});
+  }
+  return all;
+}
+
 bool OwnShapes::rulesOut(const SceneNeed& need, const Kinematics& kinematics,
-                         const std::vector<Obstacle>& obstacles) {
+                         const std::vector<Obstacle>& obstacles, const Bodies* bodies1,
+                         const Bodies* bodies2) {
   Kinematics::State state = kinematics.makeState();
   kinematics.forward(need.q, state);
-  const auto poseOf = [&](const Body& body) -> Eigen::Isometry3d {
-    return state.link[at(body.link)] * body.pose;
-  };
-  const auto isNear = [&](int body, const fcl::CollisionGeometryd& other, const Eigen::Isometry3d& pose,
-                          double margin) {
-    const Body& a = whole_->bodies[at(body)];
-    const DistanceAnswer found = fcl_stpbv::distance(shape(body), poseOf(a), other, pose);
-    return found.status != DistanceStatus::invalid && found.upper - marginOf(a) - margin <= need.clearance;
-  };
-  const auto [first, last] = whole_->of(need.pair.link1);
-  for (int i = first; i < last; ++i) {
-    if (need.pair.obstacle) {
-      const Obstacle& obstacle = obstacles[at(need.pair.link2)];
-      if (isNear(i, *obstacle.geometry(), obstacle.pose(), 0)) return true;
-      continue;
-    }
-    const auto [begin, end] = whole_->of(need.pair.link2);
-    for (int j = begin; j < end; ++j) {
-      const Body& b = whole_->bodies[at(j)];
-      if (isNear(i, shape(j), poseOf(b), marginOf(b))) return true;
+  const std::vector<Placed> first = placed(need.pair.link1, state.link[at(need.pair.link1)], bodies1);
+  std::vector<Placed> second;
+  if (need.pair.obstacle) {
+    const Obstacle& obstacle = obstacles[at(need.pair.link2)];
+    second.push_back({obstacle.geometry.get(), obstacle.pose, 0});
+  } else {
+    second = placed(need.pair.link2, state.link[at(need.pair.link2)], bodies2);
+  }
+  for (const Placed& a : first) {
+    for (const Placed& b : second) {
+      const DistanceAnswer found = fcl_stpbv::distance(*a.geometry, a.pose, *b.geometry, b.pose);
+      if (found.status != DistanceStatus::invalid && found.upper - a.margin - b.margin <= need.clearance)
+        return true;
     }
   }
   return false;

@@ -5,6 +5,7 @@
 
 #include <map>
 #include <memory>
+#include <mutex>
 #include <vector>
 
 #include "fcl_stpbv/robot/kinematics.h"
@@ -13,20 +14,32 @@
 
 namespace fcl_stpbv::detail {
 
-/// The shapes that a robot's whole bodies stand for. Meshes are read when they are first asked for.
+/// The shapes that a robot's whole bodies stand for. Meshes are read when they are first asked for, by any
+/// thread.
 class OwnShapes {
  public:
+  using Bodies = std::vector<const Body*>;
+
   explicit OwnShapes(std::shared_ptr<const RobotGeometry> whole) : whole_(std::move(whole)) {}
 
   /// Whether two links, or a link and an obstacle, are so near that no bodies with at least these bodies' r
   /// meet the need. Volumes and parts contain their mesh and lie at least r outside it.
   /// @throws Error naming a mesh that cannot be read.
-  bool rulesOut(const SceneNeed& need, const Kinematics& kinematics, const std::vector<Obstacle>& obstacles);
+  /// Of a link that is given `bodies`, these stand for its own shapes.
+  bool rulesOut(const SceneNeed& need, const Kinematics& kinematics, const std::vector<Obstacle>& obstacles,
+                const Bodies* bodies1 = nullptr, const Bodies* bodies2 = nullptr);
 
  private:
+  struct Placed {
+    const fcl::CollisionGeometryd* geometry;
+    Eigen::Isometry3d pose;
+    double margin;  // that every body around it has at least (m)
+  };
   const fcl::CollisionGeometryd& shape(int body);
+  std::vector<Placed> placed(int link, const Eigen::Isometry3d& pose, const Bodies* bodies);
 
   std::shared_ptr<const RobotGeometry> whole_;
+  std::mutex mutex_;
   std::map<int, std::shared_ptr<const fcl::CollisionGeometryd>> shapes_;  // by body
 };
 

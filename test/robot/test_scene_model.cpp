@@ -168,6 +168,19 @@ TEST_CASE("a pair whose hulls meet is taken by the fewest parts, and only that p
   CHECK(isWhole(*model.geometry, *workshop.levels[0], workshop.hooks.link2));
 }
 
+TEST_CASE("a link whose own mesh does not clear the other link is not split") {
+  const Workshop& workshop = workshopOfAll();
+  SceneModelOptions options = workshop.options;
+  options.cacheFolder = workshop.folder / "of the L alone";
+  // The cup itself is inside the hull of the L, so only the L is split.
+  modelForScene(workshop.kinematics, workshop.levels, {}, {{workshop.cupAndL, workshop.at(0.11, 0.11), 0.02}},
+                options);
+  std::size_t meshes = 0;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(options.cacheFolder))
+    meshes += entry.path().extension() == ".parts";
+  CHECK(meshes == 1);
+}
+
 TEST_CASE("where no single link helps both are split") {
   const Workshop& workshop = workshopOfAll();
   const VectorXd q = workshop.at(-0.5, -0.5, 0);
