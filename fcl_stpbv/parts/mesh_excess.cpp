@@ -15,6 +15,7 @@
 
 #include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/parts/cut_triangle.h"
+#include "fcl_stpbv/parts/known_excess.h"
 #include "fcl_stpbv/parts/mesh_solid.h"
 #include "fcl_stpbv/volume/point_check.h"
 #include "fcl_stpbv/volume/rolling_ball.h"
@@ -27,51 +28,89 @@ using Eigen::Vector3d;
 
 class Bound {
  public:
-  Bound(const MeshSolid& mesh, const ExcessOptions& options) : mesh_(mesh), options_(options) {
+  // `known`, null for none, of the same mesh as a solid.
+  Bound(const MeshSolid& mesh, const ExcessOptions& options, KnownExcess* known)
+      : mesh_(mesh), options_(options), known_(known) {
     inside_ = options.filled && mesh.hasInside();
     slack_ = 1e-9 * (mesh.high() - mesh.low()).norm();
   }
 
   MeshExcess over(const std::vector<Triangle>& surface) {
-    for (const auto& [bound, t] : largestFirst(surface)) {
-      if (bound <= best_.lower) break;  // nor can those that follow be farther
-      add({bound, *t, -1});
-      if (best_.lower > options_.enough) return {kInfinity, best_.lower, best_.where};
-    }
-    while (!open_.empty() && queries_ < options_.queries && best_.lower <= options_.enough) {
+    gatherRoots(surface);
+    const bool isEnough = !measureRoots();
+    while (!isEnough && !open_.empty() && queries_ < options_.queries && best_.lower <= options_.enough) {
+      if (settled(open_.front().bound)) break;  // and no other is above it
       std::pop_heap(open_.begin(), open_.end());
       const Open worst = open_.back();
       open_.pop_back();
-      if (settle(worst.bound)) {  // and no other is above it
-        open_.clear();
-        break;
-      }
       split(worst);
     }
     if (!open_.empty()) best_.upper = std::max(best_.upper, open_.front().bound);
-    best_.upper = std::max(best_.upper, best_.lower);
+    best_.upper = isEnough ? kInfinity : std::max(best_.upper, best_.lower);
+    keepOpen();
     return best_;
   }
 
  private:
-  struct Open {
+  using Open = OpenPiece;
+  struct Root {
+    const Triangle* triangle;
     double bound;
-    Triangle corners;
-    int near;  // a triangle of the mesh that is probably near
-    bool operator<(const Open& other) const { return bound < other.bound; }
+    TriangleExcess* known;
   };
 
-  // A point of a triangle is nowhere farther from the nearest corner than 1/sqrt(3) of the longest side, as
-  // in the middle of an equilateral one. What is far from the mesh is mostly under large ones.
-  std::vector<std::pair<double, const Triangle*>> largestFirst(const std::vector<Triangle>& surface) const {
-    std::vector<std::pair<double, const Triangle*>> sorted;
+  // The surface's triangles, first those that may be the farthest. A point of a triangle is nowhere farther
+  // from the nearest corner than 1/sqrt(3) of the longest side, as in the middle of an equilateral one. What
+  // is far from the mesh is mostly under large ones.
+  void gatherRoots(const std::vector<Triangle>& surface) {
+    if (known_)
+      known_->makeRoom();
+    else
+      own_.resize(surface.size());
     for (const Triangle& t : surface) {
       const double longest = std::max({(t[1] - t[0]).norm(), (t[2] - t[1]).norm(), (t[0] - t[2]).norm()});
-      sorted.push_back({options_.corners + 0.5774 * longest, &t});
+      Root root{&t, options_.corners + 0.5774 * longest, known_ ? &known_->of(t) : &own_[roots_.size()]};
+      if (root.known->isKnown) {
+        root.bound = std::min(root.bound, root.known->upper());
+        if (root.known->lower > best_.lower) best_.lower = root.known->lower, best_.where = root.known->where;
+      }
+      roots_.push_back(root);
     }
-    std::stable_sort(sorted.begin(), sorted.end(),
-                     [](const auto& a, const auto& b) { return a.first > b.first; });
-    return sorted;
+    std::stable_sort(roots_.begin(), roots_.end(),
+                     [](const Root& a, const Root& b) { return a.bound > b.bound; });
+  }
+
+  // A first measure of each triangle that may be the farthest. False where one is farther than enough.
+  bool measureRoots() {
+    for (std::size_t r = 0; r < roots_.size(); ++r) {
+      if (best_.lower > options_.enough) return false;
+      const Root& root = roots_[r];
+      TriangleExcess& known = *root.known;
+      if (root.bound <= best_.lower) {  // nor can those that follow be farther
+        best_.upper = std::max(best_.upper, root.bound);
+        break;
+      }
+      if (known.isKnown && settled(known.settled)) {  // on with its pieces
+        best_.upper = std::max(best_.upper, known.settled);
+        for (Open& piece : std::exchange(known.open, {})) {
+          piece.root = r;
+          if (!settle(piece)) push(piece);
+        }
+        continue;
+      }
+      known.isKnown = true;
+      known.settled = 0;
+      known.open.clear();
+      add({root.bound, *root.triangle, -1, r});
+    }
+    return best_.lower <= options_.enough;
+  }
+
+  // Gives what is open back to the triangles that it is of.
+  void keepOpen() {
+    if (!known_) return;
+    for (Open& piece : open_) roots_[piece.root].known->open.push_back(piece);
+    known_->addPieces(open_.size());
   }
 
   bool settled(double bound) const {
@@ -93,7 +132,7 @@ class Bound {
     for (const Vector3d& p : t) radius = std::max(radius, (p - middle).norm());
     if (piece.near >= 0) {
       piece.bound = std::min(piece.bound, farthest(t, piece.near));
-      if (settle(piece.bound)) return;
+      if (settle(piece)) return;
     }
     const auto [distance, near] =
         mesh_.nearest(middle, piece.near >= 0 ? piece.near : last_, best_.lower - radius);
@@ -108,23 +147,30 @@ class Bound {
       piece.bound = std::min(piece.bound, std::max(0.0, radius - distance));
     }
     if (here > best_.lower) {
-      best_.lower = here;
-      best_.where = middle;
+      TriangleExcess& known = *roots_[piece.root].known;
+      best_.lower = known.lower = here;
+      best_.where = known.where = middle;
     }
-    if (settle(piece.bound)) return;
+    if (!settle(piece)) push(piece);
+  }
+
+  void push(const Open& piece) {
     open_.push_back(piece);
     std::push_heap(open_.begin(), open_.end());
   }
 
-  bool settle(double bound) {
+  bool settle(const Open& piece) { return settle(piece, piece.bound); }
+  bool settle(const Open& piece, double bound) {
     if (!settled(bound)) return false;
     best_.upper = std::max(best_.upper, bound);
+    double& most = roots_[piece.root].known->settled;
+    most = std::max(most, bound);
     return true;
   }
 
   void add(const CutTriangle& ring, const Open& of) {
     for (std::size_t k = 1; k + 1 < ring.size(); ++k)
-      add({of.bound, {ring[0], ring[k], ring[k + 1]}, of.near});
+      add({of.bound, {ring[0], ring[k], ring[k + 1]}, of.near, of.root});
   }
 
   // Cuts off what lies over the piece's mesh triangle, where all of that is near enough to it: the distance
@@ -147,8 +193,7 @@ class Bound {
     }
     if (over.area() < worth) return false;
     const double height = farthest(over, piece.near);
-    if (!settled(height)) return false;
-    best_.upper = std::max(best_.upper, std::min(height, piece.bound));
+    if (!settle(piece, std::min(height, piece.bound))) return false;
     for (const CutTriangle& rest : outside) add(rest, piece);
     return true;
   }
@@ -181,8 +226,7 @@ class Bound {
     const bool aside = found.above || found.below || found.flat;
     if (!(aside ? (!found.above && encloses(2.5)) || (!found.below && encloses(-2.5)) : encloses(0)))
       return false;
-    best_.upper = std::max(best_.upper, std::min(piece.bound, bound));
-    return true;
+    return settle(piece, std::min(piece.bound, bound));
   }
 
   static constexpr int kMostCrossings = 8;  // beyond, halves are better
@@ -250,12 +294,15 @@ class Bound {
       if ((t[(e + 1) % 3] - t[e]).squaredNorm() > (t[(k + 1) % 3] - t[k]).squaredNorm()) k = e;
     const Vector3d &a = t[k], &b = t[(k + 1) % 3], &c = t[(k + 2) % 3];
     const Vector3d half = 0.5 * (a + b);
-    add({piece.bound, {a, half, c}, piece.near});
-    add({piece.bound, {half, b, c}, piece.near});
+    add({piece.bound, {a, half, c}, piece.near, piece.root});
+    add({piece.bound, {half, b, c}, piece.near, piece.root});
   }
 
   const MeshSolid& mesh_;
   const ExcessOptions& options_;
+  KnownExcess* known_;
+  std::vector<TriangleExcess> own_;  // of the roots, where there is no `known`
+  std::vector<Root> roots_;
   bool inside_;
   double slack_;  // far above rounding, far below what anybody asks for (m)
   MeshExcess best_;
@@ -268,7 +315,12 @@ class Bound {
 
 MeshExcess excessOf(const std::vector<Triangle>& surface, const MeshSolid& mesh,
                     const ExcessOptions& options) {
-  return Bound(mesh, options).over(surface);
+  return Bound(mesh, options, nullptr).over(surface);
+}
+
+MeshExcess detail::excessOf(const std::vector<Triangle>& surface, const MeshSolid& mesh,
+                            const ExcessOptions& options, KnownExcess& known) {
+  return Bound(mesh, options, &known).over(surface);
 }
 
 std::vector<Triangle> hullTriangles(const std::vector<Vector3d>& points) {

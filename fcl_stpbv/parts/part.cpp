@@ -36,7 +36,8 @@ PartSpace::PartSpace(const MeshSolid& solid)
       slack(1e-7 * size + 64 * std::numeric_limits<double>::epsilon() *
                               solid.low().cwiseAbs().cwiseMax(solid.high().cwiseAbs()).maxCoeff()),
       fine(5e-4 * size),
-      costly(costOf(solid)) {}
+      costly(costOf(solid)),
+      known(std::make_unique<KnownExcess>()) {}
 
 void measureAgain(Part& part, const PartSpace& space, const Measure& measure) {
   ExcessOptions options;
@@ -46,7 +47,7 @@ void measureAgain(Part& part, const PartSpace& space, const Measure& measure) {
   options.enough = measure.enough;
   if (space.isWhole) options.corners = space.slack;
   const MeshExcess before = part.excess;
-  part.excess = excessOf(part.hull.surface, space.mesh, options);
+  part.excess = excessOf(part.hull.surface, space.mesh, options, *space.known);
   if (part.queries == 0) {
     part.resolution = options.absolute;
   } else {  // both measures hold

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "fcl_stpbv/parts/cell.h"
+#include "fcl_stpbv/parts/known_excess.h"
 #include "fcl_stpbv/parts/mesh_solid.h"
 #include "fcl_stpbv/parts/part_hull.h"
 #include "fcl_stpbv/parts/plane_cut.h"
@@ -17,12 +18,13 @@ namespace fcl_stpbv::detail {
 /// What the search works on: the mesh, and lengths that follow from its size.
 struct PartSpace {
   const MeshSolid& mesh;
-  double size;                   ///< of the box around the mesh (m)
-  double slack;                  ///< corners this near a plane count as on it (m)
-  double fine;                   ///< excess that the search does not look below (m)
-  double costly;                 ///< what a distance costs, in distances to a usual mesh; at least 1
-  std::vector<CutPlane> facets;  ///< flat parts of the mesh
-  bool isWhole = true;           ///< the search sees the mesh itself, not a coarser one
+  double size;                         ///< of the box around the mesh (m)
+  double slack;                        ///< corners this near a plane count as on it (m)
+  double fine;                         ///< excess that the search does not look below (m)
+  double costly;                       ///< what a distance costs, in distances to a usual mesh; at least 1
+  std::vector<CutPlane> facets;        ///< flat parts of the mesh
+  bool isWhole = true;                 ///< the search sees the mesh itself, not a coarser one
+  std::unique_ptr<KnownExcess> known;  ///< what the measures of this search found out
 
   explicit PartSpace(const MeshSolid& solid);
 };

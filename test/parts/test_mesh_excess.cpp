@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "fcl_stpbv/error.h"
+#include "fcl_stpbv/parts/known_excess.h"
 #include "fcl_stpbv/parts/mesh_solid.h"
 #include "test/reference/mesh_reference.h"
 #include "test/reference/solids.h"
@@ -207,6 +208,37 @@ TEST_CASE(
   CHECK(excess.lower <= truth + 1e-9);
   CHECK(excess.upper >= truth - kRounding);
   CHECK(excess.upper - excess.lower < 2e-9);
+}
+
+TEST_CASE("bounds that go on from those of earlier hulls hold, and are as narrow") {
+  for (const bool closed : {true, false}) {
+    TriangleMesh shape = torusMesh(0.12, 0.03, 24, 12);
+    if (!closed) shape.triangles.resize(shape.triangles.size() - 5);
+    const MeshSolid mesh(shape);
+    REQUIRE(mesh.hasInside() == closed);
+    detail::KnownExcess known;
+    Random random(5);
+    for (int hull = 0; hull < 60; ++hull) {  // most of the points each, so that they share faces
+      std::vector<Vector3d> points;
+      for (const Vector3d& p : shape.vertices)
+        if (random.uniform(0, 8) > 1) points.push_back(p);
+      const std::vector<Triangle> surface = hullTriangles(points);
+      ExcessOptions options;
+      options.absolute = hull % 3 == 0 ? 1e-3 : 1e-5;
+      options.relative = hull % 2 == 0 ? 0.1 : 1e-3;
+      options.queries = hull % 5 == 0 ? 50 : 100000;
+      const MeshExcess found = detail::excessOf(surface, mesh, options, known);
+      const MeshExcess alone = excessOf(surface, mesh);
+      CHECK(found.lower <= alone.upper);
+      CHECK(alone.lower <= found.upper);
+      CHECK(mesh.nearest(found.where).distance >= found.lower - 1e-12);
+      if (hull % 5 != 0)
+        CHECK(found.upper <= found.lower * (1 + options.relative) + options.absolute + 1e-12);
+      options.queries = 100000;
+      options.enough = 0.5 * alone.lower;
+      CHECK(detail::excessOf(surface, mesh, options, known).lower > options.enough);
+    }
+  }
 }
 
 TEST_CASE("a bound that may not take long is wider and still holds") {
