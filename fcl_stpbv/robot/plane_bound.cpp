@@ -91,13 +91,20 @@ void PlaneBound::rank(const Vector3d& n, const std::array<Vector3d, 2>& nearest)
     loss += firstOrder(o, nearest[0]) - firstOrder(o, nearest[1]);
     order_.emplace_back(loss, order_.size());
   }
-  if (order_.size() > kRanked) keepLeast(kRanked);
+  keepLeast(kRanked);
+  // No push is below 0: a side that alone loses more than the best links on both sides settles its link.
+  std::array<double, kReferences> least;  // losses, ascending
+  least.fill(kInfinity);
   for (auto& [known, reference] : order_) {
     fixTo(reference);
     push_.prepare(n, first_);
     known = push_.push(n, first_, nearest[0]);
+    if (known > least.back()) continue;
     push_.prepare(-n, second_);
     known += push_.push(-n, second_, nearest[1]);
+    if (known >= least.back()) continue;
+    least.back() = known;
+    std::sort(least.begin(), least.end());
   }
   keepLeast(kReferences);
 }
