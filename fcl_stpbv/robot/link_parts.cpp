@@ -1,6 +1,9 @@
 // Splits the meshes of single links (parts/convex_parts.h) and builds a volume for each part, with the radii
 // of the whole body.
+#include <map>
 #include <mutex>
+#include <string>
+#include <utility>
 
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/numbers.h"
@@ -66,6 +69,10 @@ class LinkParts::Store {
     std::once_flag read;
     TriangleMesh mesh;
   };
+  struct MeshParts {
+    std::once_flag found;
+    ConvexParts parts;
+  };
 
   template <class Map>
   typename Map::mapped_type& entry(Map& map, const typename Map::key_type& key) {
@@ -77,14 +84,8 @@ class LinkParts::Store {
     const Body& whole = whole_.bodies[at(index)];
     std::vector<Body> bodies;
     if (whole.file.empty() || most < 1) return bodies;
-    PartsOptions options;
-    options.most = most;
     try {
-      const ConvexParts parts = cache_.parts(meshKey(whole), options, [&] {
-        Mesh& known = entry(meshes_, index);
-        std::call_once(known.read, [&] { known.mesh = loadMesh(whole.file, whole.scale); });
-        return known.mesh.triangles.empty() ? ConvexParts() : convexParts(known.mesh, options);
-      });
+      const ConvexParts& parts = partsOf(whole, most);
       int number = 0;
       for (const ConvexPart& part : parts.parts)
         bodies.push_back(partOf(whole, index, ++number, part, parts.pieces - parts.closedPieces));
@@ -94,11 +95,28 @@ class LinkParts::Store {
     return bodies;
   }
 
+  // The legs of a robot are often made of one mesh.
+  const ConvexParts& partsOf(const Body& whole, int most) {
+    const std::string key = meshKey(whole);
+    MeshParts& known = entry(parts_, std::pair(key, most));
+    std::call_once(known.found, [&] {
+      PartsOptions options;
+      options.most = most;
+      known.parts = cache_.parts(key, options, [&] {
+        Mesh& file = entry(meshes_, key);
+        std::call_once(file.read, [&] { file.mesh = loadMesh(whole.file, whole.scale); });
+        return file.mesh.triangles.empty() ? ConvexParts() : convexParts(file.mesh, options);
+      });
+    });
+    return known.parts;
+  }
+
   const RobotGeometry& whole_;
   VolumeCache cache_;
   std::mutex mutex_;
-  std::map<std::pair<int, int>, Split> splits_;  // by body and most
-  std::map<int, Mesh> meshes_;                   // by body
+  std::map<std::pair<int, int>, Split> splits_;             // by body and most
+  std::map<std::pair<std::string, int>, MeshParts> parts_;  // by mesh and most
+  std::map<std::string, Mesh> meshes_;
 };
 
 LinkParts::LinkParts(std::shared_ptr<const RobotGeometry> whole, const std::string& cacheFolder)

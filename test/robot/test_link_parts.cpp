@@ -86,6 +86,27 @@ TEST_CASE("a mesh is read once for all numbers of parts") {
   CHECK(pagesOfChildren() == before);
 }
 
+TEST_CASE("links of one mesh share its parts, without a cache too") {
+  const TemporaryFolder folder;
+  saveMesh(folder / "l.obj", lShape());
+  const std::string mesh = "<mesh filename=\"l.obj\"/>";
+  put(folder / "r.urdf",
+      robot(link("left", mesh) + link("right", mesh) + joint("j", "fixed", "left", "right")));
+  GeometryOptions options;
+  options.cacheFolder.clear();
+  LinkParts parts(std::make_shared<const RobotGeometry>(loadGeometry(loadUrdf(folder / "r.urdf"), options)),
+                  "");
+  const std::vector<Body>& left = parts.of(0, 2);
+  REQUIRE(left.size() == 2);
+  const long before = pagesOfChildren();
+  const std::vector<Body>& right = parts.of(1, 2);
+  CHECK(pagesOfChildren() == before);
+  REQUIRE(right.size() == 2);
+  CHECK(right[0].hull == left[0].hull);
+  CHECK(right[0].link == 1);
+  CHECK(right[0].partOf == 1);
+}
+
 TEST_CASE("an entry of other parts, a cut one and one that others may write are made anew") {
   const TemporaryFolder folder;
   const TriangleMesh mesh = lShape();
