@@ -130,7 +130,9 @@ int run(Arguments& a) {
       [](const NamedDistance& p, const NamedDistance& q) { return p.distance < q.distance; });
   if (closest != distances.end()) report.closest = *closest;
   std::vector<std::string> more;
+  report.ignoresPairs = a.careless;
   if (a.careless) more = collisionsOf(report);
+  report.colliding = static_cast<int>(more.size());
   if (const std::string beyond = limitWarning(a.task + ": start", {setup.start}, *report.kinematics,
                                               "the search starts within the limits");
       !beyond.empty())

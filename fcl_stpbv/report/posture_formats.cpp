@@ -1,6 +1,7 @@
 // A posture as text and as JSON.
 #include "fcl_stpbv/report/posture_formats.h"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -36,19 +37,33 @@ std::map<std::string, int> partsOf(const PostureReport& report) {
 
 std::string bulleted(const std::vector<Violation>& violations) {
   std::string text;
-  for (const Violation& v : violations)
-    text += "  " + detail::printable(v.name) + formatted(": %.3g", v.amount) + "\n";
+  for (const Violation& v : violations) text += "  " + detail::printable(v.name) + ": " + amountOf(v) + "\n";
   return text;
 }
 
 }  // namespace
 
+// Placements name the rows of their rotations in this way; all else is a length.
+std::string amountOf(const Violation& violation) {
+  const std::string& name = violation.name;
+  const std::string row = name.substr(name.size() - std::min<std::size_t>(name.size(), 3));
+  const bool turns = row == " rx" || row == " ry" || row == " rz";
+  return turns ? formatted("%.4f rad", violation.amount) : formatted("%.3f mm", 1e3 * violation.amount);
+}
+
+std::string verdictOf(const PostureReport& report) {
+  std::string text = report.posture.feasible ? "feasible" : "not feasible";
+  if (report.ignoresPairs)
+    text += " without regard to collisions, " + std::to_string(report.colliding) + " of " +
+            detail::counted(report.pairs.size(), "pair") + " in collision";
+  return text + " (" + report.posture.status + ")";
+}
+
 std::string toText(const PostureReport& report) {
   const Posture& posture = report.posture;
   std::size_t obstacles = 0;
   for (const CheckedPair& pair : report.pairs) obstacles += pair.obstacle;
-  std::string text = posture.feasible ? "feasible" : "not feasible";
-  text += " (" + posture.status + "): " + run(posture) + "\n";
+  std::string text = verdictOf(report) + ": " + run(posture) + "\n";
   for (const std::string& shape : report.skipped)
     text += "LEFT OUT, NOT CHECKED: " + detail::printableLines(shape) + "\n";
   text += detail::counted(report.pairs.size(), "pair") + formatted(", %zu with obstacles\n", obstacles);
@@ -63,7 +78,7 @@ std::string toText(const PostureReport& report) {
             (report.withoutCollisions->feasible ? "feasible: " : "not feasible: ") +
             run(*report.withoutCollisions) + "\n";
   if (!posture.feasible) {
-    text += "violated in the best posture found (m, rad):\n" + bulleted(posture.violations);
+    text += "violated in the best posture found:\n" + bulleted(posture.violations);
     text += "in conflict; each with its violation at the least-squares compromise:\n" +
             bulleted(posture.conflict);
     for (const std::string& limit : posture.conflictLimits)

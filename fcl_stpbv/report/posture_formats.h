@@ -16,7 +16,9 @@ struct PostureReport {
   std::shared_ptr<const Kinematics> kinematics;
   std::vector<CheckedPair> pairs;
   Posture posture;
-  std::optional<detail::NamedDistance> closest;  ///< closest pair in the posture; no value without pairs
+  std::optional<detail::NamedDistance> closest;  ///< in the posture; nothing without pairs
+  bool ignoresPairs = false;                     ///< the pairs were no constraints
+  int colliding = 0;  ///< pairs that are not farther apart than the margin, where they were none
   std::vector<std::string> warnings;
   /// Wrong shapes that were left out; nothing was checked against them.
   std::vector<std::string> skipped;
@@ -24,6 +26,10 @@ struct PostureReport {
   std::optional<Posture> withoutCollisions;
 };
 
+/// "feasible (converged)"; where the pairs were no constraints, that and how many of them collide.
+std::string verdictOf(const PostureReport& report);
+/// A violation with its unit: "12.700 mm" or "0.0127 rad".
+std::string amountOf(const Violation& violation);
 std::string toText(const PostureReport& report);
 std::string toJson(const PostureReport& report);
 /// The page of a collision report, with the robot in its posture among the obstacles.

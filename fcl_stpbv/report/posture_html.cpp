@@ -1,5 +1,6 @@
 // The page of a posture: the collision report's page with one configuration.
 #include <algorithm>
+#include <filesystem>
 
 #include "fcl_stpbv/formatted.h"
 #include "fcl_stpbv/numbers.h"
@@ -15,11 +16,10 @@ using namespace detail;
 static std::vector<std::string> violated(const Posture& posture) {
   std::vector<std::string> lines;
   if (posture.feasible) return lines;
-  for (const Violation& v : posture.violations)
-    lines.push_back(v.name + formatted(": violated by %.3g", v.amount));
+  for (const Violation& v : posture.violations) lines.push_back(v.name + ": violated by " + amountOf(v));
   for (const Violation& v : posture.conflict)
-    lines.push_back(v.name +
-                    formatted(": in conflict, violated by %.3g at the least-squares compromise", v.amount));
+    lines.push_back(v.name + ": in conflict, violated by " + amountOf(v) +
+                    " at the least-squares compromise");
   for (const std::string& limit : posture.conflictLimits) lines.push_back(limit + ": at its limit there");
   return lines;
 }
@@ -33,9 +33,8 @@ std::string toHtml(const PostureReport& report) {
   page.pairsOfBodies = true;
   page.margin = report.task.collisionMargin;
   const Posture& posture = report.posture;
-  page.pose = std::string(posture.feasible ? "feasible" : "not feasible") + " (" + posture.status +
-              formatted("), %d iterations, %.3g ms, cost %.4g", posture.iterations, posture.seconds * 1e3,
-                        posture.cost);
+  page.pose = verdictOf(report) + formatted(", %d iterations, %.1f ms, cost %.4f", posture.iterations,
+                                            posture.seconds * 1e3, posture.cost);
   page.warnings = report.warnings;
   page.skipped = report.skipped;
   page.minDistance = kInfinity;
@@ -59,8 +58,8 @@ std::string toHtml(const PostureReport& report) {
   }
   std::stable_sort(page.pairs.begin(), page.pairs.end(),
                    [](const PairReport& a, const PairReport& b) { return a.minDistance < b.minDistance; });
-  return toHtml(page, "posture for " + report.task.path, violated(report.posture),
-                marksOf(report.task, *report.kinematics, report.posture.q));
+  return toHtml(page, "posture for " + std::filesystem::path(report.task.path).filename().string(),
+                violated(report.posture), marksOf(report.task, *report.kinematics, report.posture.q));
 }
 
 }  // namespace fcl_stpbv::report

@@ -31,15 +31,27 @@ std::string steepest(const PairReport& pair) {
 
 std::string millimetres(double metres) { return formatted("%.3f", metres * kMm); }
 
-// The last line of a list that is cut after `top` lines.
+// Of a pair's hulls; they overlap where they have no distance.
+std::string hullCell(const PairReport& pair) {
+  return std::isfinite(pair.hullDistance) ? millimetres(pair.hullDistance) : "overlap";
+}
+
+// What a list cut after `top` lines ends with.
 std::string unshown(std::size_t all, std::size_t top) {
   return all > top ? "... and " + std::to_string(all - top) + " more (--top)\n" : "";
 }
 
-// The checked pairs, grouped by the cause of their collision; pairs that do not collide are last. Within a
-// group they are in the report's order. The list is cut so that each group has its share of the lines. So
-// contacts do not hide the pairs that collide only by hulls or margins.
-std::vector<const PairReport*> shownPairs(const CollisionReport& report, std::size_t top) {
+/// Pairs of the table that have something in common, and how many of it there are in all.
+struct Shown {
+  std::string heading;
+  std::vector<const PairReport*> pairs;
+  std::size_t all = 0;
+};
+
+// The checked pairs by what their collision comes from, those that do not collide last; within a group as the
+// report has them. Cut so that each group has its share of the lines: what only hulls or margins make collide
+// does not hide behind contacts.
+std::vector<Shown> shownPairs(const CollisionReport& report, std::size_t top) {
   constexpr std::size_t kGroups = 4;
   const char* const causes[kGroups] = {kMeshesMeet, kHullOnly, kMarginOnly, ""};
   std::vector<const PairReport*> groups[kGroups], shown;
@@ -56,20 +68,36 @@ std::vector<const PairReport*> shownPairs(const CollisionReport& report, std::si
   const std::size_t share = colliding == 0 ? 0 : std::max<std::size_t>(1, lines / colliding);
   for (std::size_t i = 0; i + 1 < kGroups; ++i)
     lines -= counts[i] = std::min({share, lines, groups[i].size()});
-  for (std::size_t i = 0; i < kGroups; ++i) {
-    const std::size_t more = std::min(lines, groups[i].size() - counts[i]);
-    lines -= more;
-    shown.insert(shown.end(), groups[i].begin(),
-                 groups[i].begin() + static_cast<std::ptrdiff_t>(counts[i] + more));
+  std::vector<Shown> all;
+  if (!shown.empty() && top > 0) {
+    const bool touches = report.trajectory->verdict == MotionVerdict::contact;
+    all.push_back({touches ? "first contact" : "not decided", shown, shown.size()});
   }
-  shown.resize(std::min(top, shown.size()));
-  return shown;
+  for (std::size_t i = 0; i < kGroups; ++i) {
+    const std::size_t count = counts[i] + std::min(lines, groups[i].size() - counts[i]);
+    lines -= count - counts[i];
+    if (count == 0) continue;
+    const auto begin = groups[i].begin();
+    all.push_back({i + 1 < kGroups ? causes[i] : "clear",
+                   {begin, begin + static_cast<std::ptrdiff_t>(count)},
+                   groups[i].size()});
+  }
+  return all;
+}
+
+// Says where a list of its own begins, as distances start anew there.
+std::string headingOf(const Shown& group) {
+  const std::size_t shown = group.pairs.size();
+  return group.heading +
+         (shown < group.all ? ", the " + std::to_string(shown) + " closest of " + counted(group.all, "pair")
+                            : ", " + counted(shown, "pair")) +
+         ":";
 }
 
 // If any pair collides, the table shows the meshes' distance and the cause, instead of the hulls' distance
 // and the search's reason.
 std::string pairs(const CollisionReport& report, std::size_t top) {
-  const std::vector<const PairReport*> shown = shownPairs(report, top);
+  const std::vector<Shown> shown = shownPairs(report, top);
   const bool byCause = report.colliding > 0;
   const bool timed = report.trajectory.has_value();
   TextTable table(timed ? "lrrrlrl" : "lrrrll");
@@ -80,17 +108,19 @@ std::string pairs(const CollisionReport& report, std::size_t top) {
   };
   add({"", "STP-BV", byCause ? "meshes" : "hulls", "cover", ""}, "closest", "steepest joint");
   add({"pair", "[mm]", "[mm]", "[mm]", byCause ? "cause" : "reason"}, "at", "[m/rad or m/m]");
-  for (const PairReport* pair : shown) {
-    const double other = byCause ? pair->meshDistance : pair->hullDistance;
-    const std::string& why = byCause ? pair->cause : pair->reason;
-    add({pair->link1 + " - " + pair->link2, millimetres(pair->answer.distance),
-         std::isfinite(other) ? millimetres(other) : "-", millimetres(pair->overCover1 + pair->overCover2),
-         why.empty() ? "-" : why},
-        timed ? report.trajectory->timeText(pair->time) : "", steepest(*pair));
+  bool gaps = false;
+  for (const Shown& group : shown) {
+    if (shown.size() > 1) table.add({headingOf(group)});
+    for (const PairReport* pair : group.pairs) {
+      const std::string meshes = std::isfinite(pair->meshDistance) ? millimetres(pair->meshDistance) : "-";
+      const std::string& why = byCause ? pair->cause : pair->reason;
+      add({pair->link1 + " - " + pair->link2, millimetres(pair->answer.distance),
+           byCause ? meshes : hullCell(*pair), millimetres(pair->overCover1 + pair->overCover2),
+           why.empty() ? "-" : why},
+          timed ? report.trajectory->timeText(pair->time) : "", steepest(*pair));
+      gaps |= !std::isfinite(pair->meshDistance) || pair->cause.empty();
+    }
   }
-  const bool gaps = std::any_of(shown.begin(), shown.end(), [](const PairReport* pair) {
-    return !std::isfinite(pair->meshDistance) || pair->cause.empty();
-  });
   return "\n" + table.text() + unshown(static_cast<std::size_t>(report.checked), top) +
          "\ncover: how much closer the two smooth surfaces are than their hulls, along the normal\n" +
          (!byCause ? ""

@@ -171,7 +171,9 @@ void sample(CollisionConstraints& rows, TrajectoryReport& report) {
       report.steepestPair = static_cast<int>(row);
     }
     report.chartTime.push_back(time);
-    report.chartDistance.push_back(d.minCoeff());
+    Eigen::Index nearest;
+    report.chartDistance.push_back(d.minCoeff(&nearest));
+    report.chartPair.push_back(static_cast<int>(nearest));
   }
 }
 
@@ -184,13 +186,11 @@ VectorXd TrajectoryReport::at(double time) const {
 }
 
 std::string TrajectoryReport::timeText(double time, bool down) const {
-  const double way = std::max(time - trajectory.time.front(), 1e-7);
-  const int decimals = std::clamp(static_cast<int>(std::ceil(5 - std::log10(way))), 0, 12);
+  const double way = trajectory.time.back() - trajectory.time.front();
+  const int decimals = std::clamp(static_cast<int>(std::ceil(3 - std::log10(way))), 3, 12);
   const double unit = std::pow(10.0, -decimals);
-  std::string text = detail::fixed(down ? unit * std::floor(time / unit) : time, decimals);
-  if (decimals > 0) text.erase(std::max(text.find_last_not_of('0'), text.find('.') - 1) + 1);
-  if (text.back() == '.') text.pop_back();
-  return text + (trajectory.timed ? " s" : "");
+  return detail::fixed(down ? unit * std::floor(time / unit) : time, decimals) +
+         (trajectory.timed ? " s" : "");
 }
 
 TrajectoryReport follow(Trajectory trajectory, std::shared_ptr<const Kinematics> kinematics,

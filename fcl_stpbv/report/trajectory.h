@@ -38,12 +38,14 @@ struct TrajectoryReport {
   double steepest = 0;  ///< fastest approach of any pair at the times of the chart (m per unit of time)
   double steepestTime = 0;
   int steepestPair = -1;
-  /// Least distance of all pairs at 401 evenly spaced times, at the closest approach and at the contact.
+  /// Least distance of all pairs at 401 even times, where it is least of all, and at the contact; and of
+  /// which pair it is.
   std::vector<double> chartTime, chartDistance;
+  std::vector<int> chartPair;
 
   Eigen::VectorXd at(double time) const;
-  /// A time to 1e-5 of the way to it, with its unit. `down` rounds it down, for a time before which all was
-  /// checked.
+  /// A time with its unit, rounded down where all before it was checked. All times of a trajectory have the
+  /// same decimals: three, more for one that is shorter than a second.
   std::string timeText(double time, bool down = false) const;
 };
 

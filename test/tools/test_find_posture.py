@@ -201,7 +201,10 @@ class FindPosture(unittest.TestCase):
             for point in contact["points"]:
                 self.assertAlmostEqual(point[2], 0, delta=1e-4)  # on the floor
         careless = self.run_task(self.pick_can(), "--format", "html", "--ignore-collisions", "-r", "0.01")
-        self.assertEqual(page_data(careless.stdout)["summary"]["colliding"], 7)
+        page = page_data(careless.stdout)
+        self.assertEqual(page["summary"]["colliding"], 7)
+        self.assertRegex(page["pose"], r"^feasible without regard to collisions, 7 of \d+ pairs in collision \(converged\)")
+        self.assertEqual(page["title"], "posture for task.json")  # not the folder that it is in
 
     def test_the_page_has_a_body_for_each_name_of_its_pairs(self):
         self.gate_task(0, parts=2, margin=0.01)
@@ -217,6 +220,9 @@ class FindPosture(unittest.TestCase):
         self.assertEqual(careless.returncode, 0, careless.stderr)
         told = [line.split(": ", 1)[1] for line in careless.stderr.splitlines() if "in collision" in line]
         self.assertEqual(len(told), 7)
+        text = self.run_task(self.pick_can(), "--ignore-collisions", "-r", "0.01").stdout
+        self.assertRegex(text, r"^feasible without regard to collisions, 7 of \d+ pairs in collision \(converged\): ")
+        self.assertRegex(self.run_task(self.pick_can(), "-r", "0.01").stdout, r"^feasible \(")
         self.assertEqual([warning for warning in json.loads(careless.stdout)["warnings"] if "in collision" in warning], told)
         self.assertTrue(any("upper_door" in line and re.search(r", -0\.\d+ m$", line) for line in told), told)
 
@@ -266,6 +272,7 @@ class FindPosture(unittest.TestCase):
         text = self.run_task(task, "--starts", "2").stdout
         self.assertTrue(text.startswith("not feasible"))
         self.assertIn("in conflict; each with its violation at the least-squares compromise:", text)
+        self.assertRegex(text, r"\n  left hand x: \d+\.\d{3} mm\n")
         violated = page_data(self.run_task(task, "--starts", "2", "--format", "html").stdout)["violated"]
         for kind, said in (("violations", ": violated by"), ("conflict", ": in conflict, violated by")):
             self.assertTrue(answer[kind])

@@ -109,8 +109,9 @@ class Report(unittest.TestCase):
         lines = done.stdout.splitlines()
         head = next(i for i, line in enumerate(lines) if line.startswith("pair "))
         self.assertRegex(lines[head - 1] + "\n" + lines[head], r"closest +steepest joint\npair .* cause +at  \[m/rad")
-        self.assertRegex(lines[head + 1], r"^grazed - moving +-1\.000 +0\.000 +0\.000  meshes meet +[45]\.?\d* s  ")
-        self.assertRegex(lines[head + 2], r"^hit - moving +-\d+\.\d+ +0\.000 +0\.000  meshes meet +(10|9\.9\d*) s")
+        self.assertEqual([lines[head + 1], lines[head + 3]], ["first contact, 1 pair:", "meshes meet, 1 pair:"])
+        self.assertRegex(lines[head + 2], r"^grazed - moving +-1\.000 +0\.000 +0\.000  meshes meet +[45]\.\d{3} s  ")
+        self.assertRegex(lines[head + 4], r"^hit - moving +-\d+\.\d+ +0\.000 +0\.000  meshes meet +(10\.000|9\.9\d\d) s")
         self.assertRegex(self.run_tool(*arguments, "--top", "1").stdout, r"\ngrazed - moving .*\n\.\.\. and 2 more \(--top\)\n")
         pairs = [(p["link1"], p["link2"]) for p in json.loads(self.run_tool(*arguments, "--format", "json").stdout)["pairs"]]
         self.assertEqual(pairs[:2], [("grazed", "moving"), ("hit", "moving")])
@@ -500,13 +501,17 @@ class Report(unittest.TestCase):
         for text, contacts in ((whole, 6), (cut, 3)):
             self.assertEqual(text.count("meshes meet  "), contacts, text)
             self.assertRegex(text, r"\n *STP-BV +meshes +cover\b.*\npair .* cause .*\n")
-            self.assertRegex(text, r"\ngate - gap +-\d+\.\d{3} +150\.000 +\d+\.\d{3}  hull only  ")
+            self.assertRegex(text, r"\nhull only, 1 pair:\ngate - gap +-\d+\.\d{3} +150\.000 +\d+\.\d{3}  hull only  ")
+            self.assertIn("\nmeshes meet, 6 pairs:\n" if contacts == 6 else "\nmeshes meet, the 3 closest of 6 pairs:\n", text)
             self.assertNotIn("sometimes  ", text)
         self.assertIn("meshes: the distance of the meshes themselves, 0 where they meet\n-: the volumes are far enough apart\n", whole)
         self.assertIn("\nmeshes: the distance", cut)
         self.assertNotIn("\n-: ", cut)
         clear = self.humanoid("--pose", "half_sitting").stdout  # nothing collides: hulls, and why pairs are checked
         self.assertRegex(clear, r"\n *STP-BV +hulls +cover\b.*\npair .* reason .*\n")
+        self.assertNotRegex(clear, r"\n[a-z ]+, .* pairs?:\n")  # one list
+        allowed = self.humanoid("--margin", "-0.5").stdout  # nothing collides, but hulls overlap
+        self.assertRegex(allowed, r"\n\w+ - \w+ +-\d+\.\d{3} +overlap ")
 
     def test_overlapping_primitives_are_a_collision(self):
         box = '<box size="1 1 1"/>'
