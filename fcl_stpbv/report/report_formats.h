@@ -20,10 +20,10 @@ std::string toSrdfText(const CollisionReport& report, bool defaultToo = false);
 /// The change by this SRDF, in a few words: how many of all pairs of links it leaves out, and how many the
 /// SRDF that was read left out.
 std::string srdfChange(const CollisionReport& report, bool defaultToo = false);
-/// One page that contains everything it needs: table, heat map, and the robot in 3-D. The title follows the
-/// robot's name. `violated`: a line for each thing that keeps a posture from being feasible. `marks`: what
-/// the posture's task asks for.
-std::string toHtml(const CollisionReport& report, const std::string& title = "self-collision report",
+/// One page with all it needs inside: table, heat map, and the robot in 3-D.
+/// The title follows the robot's name. `violated`: a line for each thing that keeps a posture from being
+/// feasible; `marks`: what its task asks for.
+std::string toHtml(const CollisionReport& report, const std::string& title = "",
                    const std::vector<std::string>& violated = {}, const TaskMarks& marks = {});
 
 }  // namespace fcl_stpbv::report

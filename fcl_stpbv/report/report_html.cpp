@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
 
@@ -10,6 +11,7 @@
 #include "fcl_stpbv/report/packed_text.h"
 #include "fcl_stpbv/report/page_files.h"
 #include "fcl_stpbv/report/report_formats.h"
+#include "fcl_stpbv/report/shown_text.h"
 #include "fcl_stpbv/robot/joint_freedoms.h"
 
 namespace fcl_stpbv::report {
@@ -158,6 +160,34 @@ void shorten(nlohmann::json& value) {
   }
 }
 
+// Whether the trajectory leaves open if the pair meets: neither a proof of its own nor its closest approach
+// tells.
+bool isUndecided(const CollisionReport& report, const PairReport& pair) {
+  if (!report.trajectory || !pair.checked || pair.freeAlong) return false;
+  const TrajectoryReport& t = *report.trajectory;
+  const bool isFarther = pair.answer.distance - TrajectoryReport::kPrecision > report.margin;
+  return !(t.closestProven && isFarther) || t.followedUntil < t.trajectory.time.back() ||
+         std::any_of(t.undecided.begin(), t.undecided.end(), [&](const TrajectoryStop& stop) {
+           return report.trajectoryPairs[static_cast<std::size_t>(stop.pair)] ==
+                  std::make_pair(pair.link1, pair.link2);
+         });
+}
+
+// Files are named without their folders.
+void leaveFoldersOut(const std::string& robot, nlohmann::json& data) {
+  const auto shorten = [&](nlohmann::json& text) {
+    if (text.is_string()) text = withoutFolders(text.get<std::string>(), robot);
+  };
+  for (const char* texts : {"warnings", "skipped", "violated"})
+    for (nlohmann::json& text : data[texts]) shorten(text);
+  for (nlohmann::json& link : data["links"]) shorten(link["file"]);
+  for (const char* text : {"title", "pose"}) shorten(data[text]);
+  if (data["trajectory"].is_object()) {
+    nlohmann::json& file = data["trajectory"]["file"];
+    file = std::filesystem::path(file.get<std::string>()).filename().string();
+  }
+}
+
 // What a task asks for: targets with their frames, and contacts.
 void addMarks(const TaskMarks& marks, nlohmann::json& data) {
   data["targets"] = data["contacts"] = nlohmann::json::array();
@@ -178,7 +208,8 @@ void addMarks(const TaskMarks& marks, nlohmann::json& data) {
 nlohmann::json dataOf(const CollisionReport& report, const std::string& title,
                       const std::vector<std::string>& violated, const TaskMarks& marks) {
   nlohmann::json data = nlohmann::json::parse(toJson(report));
-  data["title"] = title;
+  const char* const usual = report.obstacles.empty() ? "self-collision report" : "collision report";
+  data["title"] = title.empty() ? usual : title;
   data["violated"] = violated;
   addMarks(marks, data);
   data["trajectory"] = nlohmann::json();
@@ -210,6 +241,7 @@ nlohmann::json dataOf(const CollisionReport& report, const std::string& title,
   }
   if (known.empty()) indexOf(report.kinematics->neutral());
   data["kinematics"] = std::move(Joints(*report.kinematics).list);
+  leaveFoldersOut(report.robot->path, data);
   shorten(data);
   Bodies bodies(report);
   data["shapes"] = std::move(bodies.shapes);

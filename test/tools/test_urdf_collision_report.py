@@ -490,6 +490,25 @@ class Report(unittest.TestCase):
         self.assertNotIn("more (--top)", whole)
         self.assertLessEqual(len(cut.splitlines()), len(whole.splitlines()) - (said - 2))
 
+    def test_a_page_names_files_without_their_folders(self):
+        wall = self.put("wall.urdf", '<robot name="scene"><link name="wall"><collision><origin xyz="9 0 0"/><geometry><box size="0.1 1 1"/>'
+                                     "</geometry></collision></link></robot>")
+        pose = self.put("pose.json", "{}")
+        done = self.run_tool(os.path.abspath(ROBOT + ".urdf"), "--samples", "20", "--format", "html", "--obstacles", wall, "--primitives", "flat")
+        self.assertIn("/hrp2_style.urdf: ", done.stderr)
+        page = page_data(done.stdout)
+        self.assertTrue(any(warning.startswith("hrp2_style.urdf: ") for warning in page["warnings"]), page["warnings"])
+        self.assertEqual(page["title"], "collision report")
+        for text in (os.path.dirname(os.path.abspath(ROBOT)), os.path.dirname(wall)):
+            self.assertNotIn(text, json.dumps(page))
+        near = subprocess.run([PROGRAM, "hrp2_style/hrp2_style.urdf", "--samples", "20", "--format", "html"], capture_output=True, text=True,
+                              cwd=os.path.dirname(os.path.dirname(os.path.abspath(ROBOT))), env=dict(os.environ, XDG_CACHE_HOME=self.shared.name))
+        self.assertIn("hrp2_style/hrp2_style.urdf: ", near.stderr)
+        self.assertTrue(any(warning.startswith("hrp2_style.urdf: ") for warning in page_data(near.stdout)["warnings"]))
+        posed = page_data(self.run_tool(ROBOT + ".urdf", "--samples", "20", "--format", "html", "--pose", pose).stdout)
+        self.assertEqual(posed["pose"], "pose.json")
+        self.assertEqual(posed["title"], "self-collision report")
+
     def test_what_only_hulls_make_collide_does_not_hide_behind_contacts(self):
         # Six boxes in another one's post, and one in the gap between the posts.
         gate = self.boxes("gate.obj", 0.1, (-0.3, 0, 0), (0.3, 0, 0))
