@@ -12,6 +12,7 @@
 #include "fcl_stpbv/report/page_files.h"
 #include "fcl_stpbv/report/report_formats.h"
 #include "fcl_stpbv/report/shown_text.h"
+#include "fcl_stpbv/report/trajectory_data.h"
 #include "fcl_stpbv/robot/joint_freedoms.h"
 
 namespace fcl_stpbv::report {
@@ -160,19 +161,6 @@ void shorten(nlohmann::json& value) {
   }
 }
 
-// Whether the trajectory leaves open if the pair meets: neither a proof of its own nor its closest approach
-// tells.
-bool isUndecided(const CollisionReport& report, const PairReport& pair) {
-  if (!report.trajectory || !pair.checked || pair.freeAlong) return false;
-  const TrajectoryReport& t = *report.trajectory;
-  const bool isFarther = pair.answer.distance - TrajectoryReport::kPrecision > report.margin;
-  return !(t.closestProven && isFarther) || t.followedUntil < t.trajectory.time.back() ||
-         std::any_of(t.undecided.begin(), t.undecided.end(), [&](const TrajectoryStop& stop) {
-           return report.trajectoryPairs[static_cast<std::size_t>(stop.pair)] ==
-                  std::make_pair(pair.link1, pair.link2);
-         });
-}
-
 // Files are named without their folders.
 void leaveFoldersOut(const std::string& robot, nlohmann::json& data) {
   const auto shorten = [&](nlohmann::json& text) {
@@ -212,11 +200,8 @@ nlohmann::json dataOf(const CollisionReport& report, const std::string& title,
   data["title"] = title.empty() ? usual : title;
   data["violated"] = violated;
   addMarks(marks, data);
-  data["trajectory"] = nlohmann::json();
-  if (report.trajectory)
-    data["trajectory"] = {{"file", report.trajectory->path},
-                          {"timed", report.trajectory->trajectory.timed},
-                          {"verdict", trajectoryVerdict(report)}};
+  data["sampled"] = !report.pairsOfBodies;  // a posture's pairs come from its task, not from a search
+  data["hand_over"] = kHandOver;
   data["joints"] = report.kinematics->names();
   data["configurations"] = nlohmann::json::array();
   std::map<std::vector<double>, std::size_t> known;
@@ -236,9 +221,11 @@ nlohmann::json dataOf(const CollisionReport& report, const std::string& title,
       item["time_text"] = report.trajectory->timeText(pair.time);
       item["time_share"] = (pair.time - time.front()) / (time.back() - time.front());
     }
+    item["touches_first"] = pair.stopsTrajectory && report.trajectory->verdict == MotionVerdict::contact;
     item["contradicts_srdf"] = pair.contradictsSrdf;
     item.erase("closest");
   }
+  data["trajectory"] = trajectoryData(report, indexOf);
   if (known.empty()) indexOf(report.kinematics->neutral());
   data["kinematics"] = std::move(Joints(*report.kinematics).list);
   leaveFoldersOut(report.robot->path, data);
@@ -271,7 +258,8 @@ static std::string trajectorySection(const CollisionReport& report) {
   if (!report.trajectory) return "";
   return "<section id=\"trajectory\" aria-label=\"Trajectory\"><h2>Least distance of all "
          "checked pairs along the trajectory</h2>" +
-         chartOf(*report.trajectory, report.margin) + "</section>";
+         chartOf(*report.trajectory, report.margin) +
+         "<p id=\"instants\"></p><div id=\"instant\" class=\"tip\" hidden></div></section>";
 }
 
 std::string toHtml(const CollisionReport& report, const std::string& title,

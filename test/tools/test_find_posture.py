@@ -205,6 +205,7 @@ class FindPosture(unittest.TestCase):
         self.assertEqual(page["summary"]["colliding"], 7)
         self.assertRegex(page["pose"], r"^feasible without regard to collisions, 7 of \d+ pairs in collision \(converged\)")
         self.assertEqual(page["title"], "posture for task.json")  # not the folder that it is in
+        self.assertTrue(page["skipped"] == [] and page["sampled"] is False)
 
     def test_the_page_has_a_body_for_each_name_of_its_pairs(self):
         self.gate_task(0, parts=2, margin=0.01)

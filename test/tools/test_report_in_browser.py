@@ -173,6 +173,16 @@ class Browser(unittest.TestCase):
         return self.script("""return [...document.querySelectorAll('#table tbody tr')].map(row => {
           row.click(); return [row.cells[0].textContent, row.cells[1].textContent, document.querySelector('.tag').textContent]; })""")
 
+    def window(self, width):
+        """From now on the page is so wide; tearDown ends it."""
+        self.browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", {"width": width, "height": 900, "deviceScaleFactor": 1, "mobile": width < 500})
+
+    def await_script(self, text):
+        WebDriverWait(self.browser, 20).until(lambda b: b.execute_script(text))
+
+    def detail(self):
+        return self.browser.find_element(By.ID, "detail").text
+
     def pixels(self):
         return self.browser.execute_async_script(COUNT_PIXELS)
 
@@ -194,6 +204,7 @@ class Browser(unittest.TestCase):
         self.assertGreater(rate, 5)
 
     def tearDown(self):
+        self.browser.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
         bad = [e for e in self.browser.get_log("browser") if e["level"] == "SEVERE"]
         self.assertEqual(bad, [])
         sent = [json.loads(e["message"])["message"] for e in self.browser.get_log("performance")]
@@ -423,8 +434,13 @@ class Page(Browser):
           for (let i = 0; i < d.length; i += 4) count += d[i] > 130 && d[i + 1] < 90 && d[i + 2] > 120;
           return count;""")
         self.assertGreater(pixels, 20)  # of the targets' colour
+        self.assertIn("high x: violated by 10.000 mm", self.browser.find_element(By.ID, "violated").text)
+        self.assertNotIn("Least in samples", self.detail())
         self.click("#show [data-value=pair]")
         self.assertFalse(self.script("return scene.marks.visible"))
+        self.window(390)
+        self.show()
+        self.assertLessEqual(self.script("return document.documentElement.scrollWidth"), 390)
         self.open(urdf)
         self.assertFalse(self.browser.find_element(By.ID, "task").is_displayed())
 
@@ -451,14 +467,18 @@ class Page(Browser):
         self.humanoid()
         self.script("Object.defineProperty(navigator, 'clipboard', { value: undefined })")
         self.click(".tags button")
-        WebDriverWait(self.browser, 20).until(lambda b: b.find_element(By.CSS_SELECTOR, ".tags button").text == "Copied")
+        for text in ("Copied", "Copy posture"):
+            WebDriverWait(self.browser, 20).until(lambda b, text=text: b.find_element(By.CSS_SELECTOR, ".tags button").text == text)
 
     def test_a_pair_that_overlaps_by_less_than_a_negative_margin_allows_is_not_in_collision(self):
         self.open(ROBOT + ".urdf", "--srdf", ROBOT + ".srdf", "--margin", "-0.5")
         self.assertEqual(self.script("return document.querySelectorAll('.figure.bad').length"), 0)
         self.assertEqual(self.script("return scene.report.pairs.filter(p => p.checked && p.distance < 0).length > 0"), True)
-        self.assertFalse(self.script("const map = new HeatMap(scene.report, () => {}); map.draw(); "
-                                     "return map.pairs.some(p => map.colour(p) === map.style.getPropertyValue('--touch'))"))
+        # No cell has a colour between those of collisions.
+        self.assertTrue(self.script("const map = new HeatMap(scene.report, () => {}); map.draw(); "
+                                    "return map.pairs.filter(p => p.checked).every(p => "
+                                    "map.colour(p) === scaleColour(Math.max(0, Math.min(1, p.distance / map.far))))"))
+        self.assertIn("overlap", [row[3] for row in self.rows()])
 
     def test_a_view_of_a_pair_that_is_not_there_shows_the_first(self):
         self.humanoid(view="#pair=9999&show=pair")
@@ -471,6 +491,152 @@ class Page(Browser):
         self.reopen(lambda data: data["pairs"].clear())
         self.assertIn("no pairs", self.browser.find_element(By.ID, "nothing").text)
         self.assertGreater(self.pixels()["link"], 5000)
+
+    def test_names_stay_readable_on_a_phone_and_other_columns_give_way(self):
+        self.window(390)
+        self.open(ROBOT + ".urdf", "--srdf", ROBOT + ".srdf")  # everything collides: all columns
+        self.await_script("return document.querySelector('#table td').hidden === false")
+        names = {name for row in self.rows() for name in row[:2]}
+        self.assertTrue(all(len(name) >= 9 or name == "BODY" for name in names), names)
+        shown = self.script("return [...document.querySelectorAll('#table th')].filter(h => h.offsetWidth).map(h => h.dataset.key)")
+        self.assertEqual(shown[:3], ["link1", "link2", "distance"])
+        self.assertNotIn("cover", shown)
+        self.assertTrue(self.script("const box = document.getElementById('tablebox'); return box.scrollWidth <= box.clientWidth"))
+        self.assertLessEqual(self.script("return document.documentElement.scrollWidth"), 390)
+        self.window(1400)
+        self.await_script("return document.querySelector('#table th[data-key=cover]').offsetWidth > 0")
+
+    def test_hulls_that_overlap_are_said_to_and_come_first(self):
+        self.open(ROBOT + ".urdf", "--srdf", ROBOT + ".srdf")
+        self.click("#table th[data-key=hull_distance]")
+        hulls = [row[3] for row in self.rows()]
+        count = hulls.count("overlap")
+        self.assertGreater(count, 10)
+        self.assertEqual(set(hulls[:count]), {"overlap"})
+        self.assertNotIn("–", hulls)
+        self.assertIn("overlap", self.script("return document.querySelector('#table th[data-key=hull_distance]').title"))
+
+    def test_long_names_of_links_differ_and_a_click_shows_their_pairs(self):
+        self.humanoid()
+        self.reopen(lambda data: [link.update(name=f"mobile_manipulator_robot_with_two_arms_{link['name']}") for link in data["links"]])
+        names = self.script("return [...document.querySelectorAll('#linktable tbody tr')].map(({ cells: [name] }) => "
+                            "[name.textContent, name.title, name.scrollWidth <= name.clientWidth])")
+        self.assertEqual(len({short for short, *_ in names}), len(names))
+        self.assertTrue(all(title.startswith("mobile_manipulator_robot_with_two_arms_") and fits for _, title, fits in names), names)
+        self.script("document.querySelector('#linktable tbody tr').click()")
+        self.assertEqual(self.browser.find_element(By.ID, "count").text, "30 of 465 pairs")
+        numbers = "return [...document.querySelectorAll('#linktable tbody tr')].map(r => Number(r.cells[r.cells.length - 1].textContent))"
+        for way in (-1, 1):
+            self.script("document.querySelector('#linktable th[data-key=vertices]').click()")
+            self.assertEqual(self.script(numbers), sorted(self.script(numbers), reverse=way < 0))
+
+    def test_a_trajectory_opens_at_its_first_contact(self):
+        # The arm goes on into the body for half a second.
+        way = self.put("way.csv", "time,RARM_JOINT1,RARM_JOINT3\n0,-0.2,-0.3\n1,0.4,-0.3\n2,-0.2,-0.3\n")
+        self.open(ROBOT + ".urdf", "--srdf", ROBOT + ".srdf", "--trajectory", way)
+        contact = self.script("return scene.report.trajectory.contact")
+        self.assertAlmostEqual(contact["distance"], 0, delta=1e-5)
+        self.assertIn("First contact at\n" + contact["time_text"], self.detail())
+        posture = lambda: self.script("return scene.pair.posture")
+        self.assertEqual(posture(), contact["posture"])
+        tags = self.script("return [...document.querySelectorAll('#table td[data-tag]')].map(c => [c.dataset.tag, c.parentElement.rowIndex])")
+        self.assertEqual(tags, [["first contact", 1]])
+        self.click(".moments button:last-child")
+        self.assertEqual(posture(), self.script("return scene.report.pairs[0].posture"))
+        self.assertNotIn("First contact at", self.detail())
+        # The chart tells what is under the mouse, and a click puts the robot there.
+        self.script("document.getElementById('trajectory').scrollIntoView()")
+        chart = self.browser.find_element(By.CSS_SELECTOR, "#trajectory svg")
+        ActionChains(self.browser).move_to_element(chart).perform()
+        told = self.browser.find_element(By.ID, "instant").text
+        self.assertRegex(told, r"^\d\.\d{3} s: -?\d+\.\d{3} mm, \w+ – \w+$")
+        chart.click()
+        self.assertIn("Shown at\n" + told.split(":")[0], self.detail())
+        self.assertEqual(posture(), self.script(f"const c = scene.report.trajectory.chart; return c.posture[c.time_text.indexOf('{told.split(':')[0]}')]"))
+        self.assertFalse(self.script("scene.draw(); return scene.witness.visible"))  # it is known where the two are closest only
+        instants = self.browser.find_element(By.ID, "instants").text
+        self.assertRegex(instants, r"First contact: \d\.\d{3} s, .* \w+ – \w+\nClosest: \d\.\d{3} s, -\d+\.\d{3} mm, \w+ – \w+")
+
+    def test_parts_have_a_card_and_stand_below_their_link(self):
+        self.humanoid()
+        self.assertFalse(self.browser.find_element(By.ID, "parts").is_displayed())
+
+        def split(data):
+            data["summary"]["rows"] = {"whole": 130, "whole_us_per_tick": 17, "parts": 131, "parts_us_per_tick": 18, "hand_over": 132, "hand_over_live": 7,
+                                       "hand_over_us_per_tick": 19}
+            data["links"][0]["parts"] = 2
+            for i, link in enumerate(data["links"][-2:]):
+                link.update(part_of=data["links"][0]["name"], excess_max=0.001 * (i + 1))
+            for pair in data["pairs"][:5]:
+                pair.update(by_parts="BODY" in (pair["link1"], pair["link2"]))
+        self.reopen(split)
+        text = self.browser.find_element(By.ID, "parts").text
+        self.assertIn("BODY in 2 parts, 2.000 mm from the mesh at most", text)
+        self.assertRegex(text, "below 0.1 m, whole bodies above; 7 of the rows not constant 132 19.0")
+        below = self.script("return [...document.querySelectorAll('#linktable tr.part')].map(r => r.previousElementSibling.cells[0].title.split(' ')[0])")
+        self.assertEqual(below[0], "BODY")
+        self.assertEqual(len(below), 2)
+
+    def test_a_verdict_over_all_postures_is_not_mixed_with_this_one(self):
+        self.humanoid()
+        self.reopen(lambda data: data["pairs"][0].update(reason="always"))
+        self.assertIn("nearly always", self.rows()[0])
+        self.assertIn("clear", self.detail())
+        self.assertIn("over all postures: nearly always", self.detail())
+        self.click("#words summary")
+        self.assertIn("at least 95 %", self.browser.find_element(By.ID, "words").text)
+        self.assertNotIn("rigid", self.browser.find_element(By.ID, "words").text)  # which no pair is
+
+    def test_figures_filter_and_keys_sort(self):
+        self.open(ROBOT + ".urdf", "--srdf", ROBOT + ".srdf")
+        cards = "return [...document.querySelectorAll('.group .figure')].map(c => [c.textContent, c.click(), document.getElementById('count').textContent])"
+        (hit, _, count), *causes = self.script(cards)
+        self.assertEqual(hit, count.split()[0] + "in collision")
+        self.assertEqual([text for text, *_ in causes], [count.split()[0] + cause for (_, _, count), cause in
+                                                         zip(causes, [re.sub(r"^\d+", "", text) for text, *_ in causes])])
+        self.assertEqual(sum(int(count.split()[0]) for _, _, count in causes), int(count.split()[0]))
+        self.click("#figures button")
+        self.assertEqual(self.browser.find_element(By.ID, "count").text, "465 pairs")
+        self.browser.find_element(By.CSS_SELECTOR, "#table th[data-key=distance]").send_keys(" ")
+        self.assertEqual(self.script("return document.querySelector('#table th[data-key=distance]').getAttribute('aria-sort')"), "ascending")
+
+    def test_the_heat_map_shades_depth_and_shows_what_is_chosen(self):
+        self.open(ROBOT + ".urdf", "--srdf", ROBOT + ".srdf")
+        heat = self.browser.find_element(By.ID, "heat")
+        self.script("document.getElementById('heat').scrollIntoView()")
+        at = self.script("const h = document.getElementById('heat').getBoundingClientRect(); return h.width - 8 - h.width / 2")
+        ActionChains(self.browser).move_to_element_with_offset(heat, int(at), int(at) - 30).click().perform()
+        seen = """
+          const row = document.querySelector('#table tr.sel').getBoundingClientRect(), box = document.getElementById('tablebox').getBoundingClientRect();
+          return row.top >= box.top && row.bottom <= box.bottom + 1 && box.top >= 0 && box.bottom <= innerHeight + 1;"""
+        self.await_script(seen)
+        before = self.script("return document.body.dataset.selected")
+        heat.send_keys(webdriver.Keys.ARROW_UP)
+        self.assertNotEqual(self.script("return document.body.dataset.selected"), before)
+        self.assertGreater(self.script("const map = new HeatMap(scene.report, () => {}); map.draw(); "
+                                       "return new Set(map.pairs.filter(p => p.checked && p.colliding).map(p => map.colour(p))).size"), 10)
+        self.window(390)
+        self.show()
+        self.assertGreaterEqual(self.script("const map = new HeatMap(scene.report, () => {}); map.draw(); return map.cell"), 12)
+        self.assertLessEqual(self.script("return document.documentElement.scrollWidth"), 390)
+
+    def test_the_first_view_shows_the_obstacle_of_the_closest_pair_beside_the_robot(self):
+        wall = self.put("scene.urdf", '<robot name="scene"><link name="wall"><collision><origin xyz="0.5 0 0"/><geometry>'
+                        '<box size="0.1 1 1.4"/></geometry></collision></link></robot>')
+        self.humanoid("--obstacles", wall)
+        self.assertEqual(self.script("return document.title"), "hrp2_style: collision report")
+        self.reopen(lambda data: data["pairs"].sort(key=lambda p: p["link2"] != "wall"))
+        corners, across = self.script("""
+          const box = scene.bounds(scene.bodies.filter((_, i) => scene.report.bodies[i].obstacle)), far = [];
+          scene.camera.updateMatrixWorld();
+          for (const x of [box.min.x, box.max.x]) for (const y of [box.min.y, box.max.y]) for (const z of [box.min.z, box.max.z])
+            far.push(...new THREE.Vector3(x, y, z).project(scene.camera).toArray().slice(0, 2));
+          const way = scene.camera.position.clone().sub(scene.controls.target).normalize();
+          return [far, way.x];""")
+        self.assertLess(max(map(abs, corners)), 1.05)
+        self.assertLess(across, 0.1)  # not from behind the wall
+        self.humanoid()
+        self.assertEqual(self.script("return document.title"), "hrp2_style: self-collision report")
 
     def test_the_cause_filter_keeps_the_pairs_of_one_cause(self):
         self.humanoid()

@@ -30,6 +30,40 @@ function shortener(names) {
   };
 }
 
+// `names` shortened to what `width` pixels hold in the element's font.
+function fittedNames(names, element, width) {
+  const shorten = shortener(names), pen = document.createElement('canvas').getContext('2d'), style = getComputedStyle(element);
+  pen.font = `${style.fontWeight} ${style.fontSize} ${style.fontFamily}`;
+  return new Map(names.map(name => [name, shorten(name, text => pen.measureText(text).width <= width)]));
+}
+
+// A column's head that sorts: by a click, Enter or Space.
+function sortable(head, onSort) {
+  head.tabIndex = 0;
+  head.onclick = onSort;
+  head.onkeydown = e => {
+    if (e.key !== 'Enter' && e.key !== ' ') return;
+    e.preventDefault();
+    onSort();
+  };
+}
+
+function showOrder(heads, { key, sign }) {
+  for (const head of heads) {
+    if (head.dataset.key === key) head.setAttribute('aria-sort', sign > 0 ? 'ascending' : 'descending');
+    else head.removeAttribute('aria-sort');
+  }
+}
+
+// Numbers or names; what is missing comes last either way.
+function compared(x, y, sign) {
+  const missing = v => v === null || v === undefined || v === '';
+  if (missing(x) || missing(y)) return missing(x) - missing(y);
+  return sign * (typeof x === 'string' ? x.localeCompare(y) : (x > y) - (x < y));
+}
+
+const counted = (count, noun) => `${count} ${noun}${count === 1 ? '' : 's'}`;
+
 function bytes(base64) {
   return Uint8Array.from(atob(base64), c => c.charCodeAt(0));
 }

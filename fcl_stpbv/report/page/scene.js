@@ -184,13 +184,33 @@ class Scene {
   frame(zoom = 1) {
     const isolated = this.pair && this.show !== 'all';
     const meshes = this.bodies.filter((_, i) => isolated ? this.side(this.report.bodies[i]) >= 0 : !this.report.bodies[i].obstacle);
-    const sphere = this.bounds(!meshes.length ? this.bodies : isolated ? meshes : [...meshes, this.marks]).getBoundingSphere(new THREE.Sphere());
+    const box = this.bounds(!meshes.length ? this.bodies : isolated ? meshes : [...meshes, this.marks]);
+    if (!isolated && this.pair && this.pair.obstacle) this.addObstacle(box);
+    const sphere = box.getBoundingSphere(new THREE.Sphere());
     const half = Math.min(1, this.camera.aspect) * Math.tan(this.camera.fov * Math.PI / 360);
     const way = this.camera.position.clone().sub(this.controls.target).normalize();
     this.controls.target.copy(sphere.center);
     this.camera.position.copy(sphere.center).addScaledVector(way, sphere.radius / half / zoom);
     this.controls.update();
     this.redraw();
+  }
+
+  // The pair's obstacle too, as far as it is not much larger than the robot, as a floor is.
+  addObstacle(box) {
+    const own = this.bounds(this.bodies.filter((_, i) => this.side(this.report.bodies[i]) === 1)), robot = box.getBoundingSphere(new THREE.Sphere());
+    const most = new THREE.Vector3(1, 1, 1).multiplyScalar(1.5 * robot.radius);
+    box.union(own.intersect(new THREE.Box3(robot.center.clone().sub(most), robot.center.clone().add(most))));
+  }
+
+  // An obstacle must not hide the robot: seen across the normal of the two, a little from the robot's side. Without one as asked.
+  clearYaw(otherwise) {
+    if (!this.pair || !this.pair.obstacle || !this.pair.point1) return otherwise;
+    const robot = this.bounds(this.bodies.filter((_, i) => !this.report.bodies[i].obstacle)).getCenter(new THREE.Vector3());
+    const normal = new THREE.Vector3(...this.pair.normal).setZ(0);
+    if (normal.length() < 0.3) return otherwise;  // the obstacle is below or above
+    const inward = Math.sign(normal.dot(robot.sub(new THREE.Vector3(...this.pair.point2)))) || 1;
+    const away = Math.atan2(inward * normal.y, inward * normal.x), seen = [away + 1.1, away - 1.1];
+    return Math.cos(seen[0] - otherwise) > Math.cos(seen[1] - otherwise) ? seen[0] : seen[1];
   }
 
   // From a side: yaw about the vertical (0 looks along -x, at the robot's front), pitch above the floor (rad).
@@ -213,8 +233,8 @@ class Scene {
 
   // As thick on the screen wherever it is.
   updateWitness() {
-    this.witness.visible = !!this.pair;
-    if (!this.pair) return;
+    this.witness.visible = !!this.pair && !!this.pair.point1;
+    if (!this.witness.visible) return;
     const a = new THREE.Vector3(...this.pair.point1), b = new THREE.Vector3(...this.pair.point2), middle = a.clone().lerp(b, 0.5);
     const pixel = this.camera.position.distanceTo(middle) * 2 * Math.tan(this.camera.fov * Math.PI / 360) / this.canvas.clientHeight;
     this.witness.children.forEach((mesh, i) => {

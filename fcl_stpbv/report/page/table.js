@@ -3,17 +3,21 @@ const COLUMNS = [
   { key: 'link1', label: 'Link 1', text: true, name: true },
   { key: 'link2', label: 'Link 2', text: true, name: true },
   { key: 'distance', label: 'STP-BV mm', title: 'Distance of the two smooth volumes; negative: they overlap' },
-  { key: 'hull_distance', label: 'Hulls mm', title: 'Distance of the convex hulls' },
-  { key: 'mesh_distance', label: 'Meshes mm', title: 'Distance of the triangle meshes' },
+  { key: 'hull_distance', label: 'Hulls mm', title: 'Distance of the convex hulls; overlap: how deep is not measured' },
+  { key: 'mesh_distance', label: 'Meshes mm', title: 'Distance of the triangle meshes, 0 where they meet; –: not measured, as the volumes are far apart' },
   { key: 'cover', label: 'Cover mm', title: 'How much closer the volumes are than their hulls, along the normal' },
   { key: 'cause', label: 'Cause', title: 'What meets, or is within the margin: the meshes, only their hulls, or only the covers around them', text: true },
-  { key: 'reason', label: 'Reason', title: 'What the search for collisions says', text: true },
+  { key: 'reason', label: 'Over all postures', title: 'What the search for collisions says of all postures, not only of this one', text: true },
   { key: 'srdf_reason', label: 'SRDF', title: 'What the SRDF says', text: true }
 ];
+// What a narrow table leaves out, in this order; a chosen pair's details show all of it.
+const DROPPED = ['srdf_reason', 'cover', 'hull_distance', 'reason', 'mesh_distance', 'cause'];
 
 const COVERS_ONLY = ['hull only', 'margin only'];  // causes that the meshes have no part in
 
 const PADDING = 12;  // of a cell, both sides (pixels)
+const FILTERS = ['search', 'link', 'state', 'reason', 'cause'];
+const LEAST_NAME = 'nnnnnnnnnn';  // so much of a name is shown at least
 
 const STATES = {
   checked: ['checked', p => p.checked],
@@ -30,9 +34,17 @@ function stateOf(pair, report) {
   return pair.colliding ? [hitWord(report), 'hit'] : pair.verdict === 'undecided' ? ['not decided', 'warn'] : ['clear', ''];
 }
 
+// "always" stands for at least 95 % of the samples.
+const reasonWord = reason => reason === 'always' ? 'nearly always' : reason;
+
 function cellText({ key, text }, pair) {
+  if (key === 'reason') return reasonWord(pair.reason);
+  if (key === 'hull_distance' && pair[key] === null) return 'overlap';
   return text ? pair[key] : mm(pair[key]);
 }
+
+// What a column is sorted by: hulls that overlap are nearest.
+const sortValue = (pair, key) => key === 'hull_distance' && pair[key] === null ? -Infinity : pair[key];
 
 class PairTable {
   constructor(report, onSelect) {
@@ -42,8 +54,9 @@ class PairTable {
     this.shorten = shortener([...new Set(pairs.flatMap(p => [p.link1, p.link2]))]);
     this.selected = -1;
     this.sort = { key: null, sign: 1 };
-    const known = { hull_distance: 1, mesh_distance: 1, cause: 1, srdf_reason: 1 };
-    this.columns = COLUMNS.filter(c => !known[c.key] || pairs.some(p => p[c.key] !== null && p[c.key] !== ''));
+    const known = { mesh_distance: 1, cause: 1, srdf_reason: 1 };
+    this.columns = COLUMNS.filter(c => !known[c.key] || pairs.some(p => p[c.key] !== null && p[c.key] !== '')).map(c =>
+      c.key === 'reason' && !report.sampled ? { ...c, label: 'Kind', title: 'With another link of the robot, or with an obstacle' } : c);
     this.makeHead();
     this.makeFilters();
     this.rows = pairs.map((pair, i) => this.makeRow(pair, i));
@@ -52,8 +65,7 @@ class PairTable {
     this.fill();
   }
 
-  // As wide as the longest content of a column needs, in pixels, names up to a limit. A wider table shares out the rest, in a
-  // narrower one names give way.
+  // As wide as the longest content of a column needs, in pixels, names up to a limit. A wider table shares out the rest.
   widthOf(column) {
     const most = 190, style = getComputedStyle(byId('table'));
     const pen = document.createElement('canvas').getContext('2d');
@@ -62,6 +74,7 @@ class PairTable {
       return [...texts].reduce((width, text) => Math.max(width, pen.measureText(text).width), 0);
     };
     if (column.name) this.textWidth = text => widest('400', [text]);
+    if (column.name) column.least = Math.ceil(widest('400', [LEAST_NAME])) + PADDING;
     const cells = new Set(this.pairs.map(p => cellText(column, p)));
     const width = Math.max(widest('600', column.label.split(' ')), widest(column.key === 'distance' ? '650' : '400', cells));
     return Math.min(most, PADDING + Math.ceil(width));
@@ -74,25 +87,29 @@ class PairTable {
       document.querySelector('#table colgroup').append(col);
       const head = make('th', column.text ? '' : 'n', column.label);
       head.title = column.title || '';
-      head.tabIndex = 0;
       head.dataset.key = column.key;
-      head.onclick = () => this.sortBy(column.key);
-      head.onkeydown = e => { if (e.key === 'Enter') this.sortBy(column.key); };
+      sortable(head, () => this.sortBy(column.key));
+      column.head = head;
       document.querySelector('#table thead tr').append(head);
     }
   }
 
-  // Takes what is missing from the other words first, then from the names.
+  // Where there is too little room, the words give way first, then whole columns, then the names down to their least width.
   fit() {
-    let over = this.columns.reduce((sum, column) => sum + column.width, 0) - byId('tablebox').clientWidth;
-    const widths = new Map(this.columns.map(column => [column, column.width]));
-    for (const [least, shrink] of [[0.5, c => c.text && !c.name && c.key !== 'cause'], [0.4, c => c.name]]) {
-      const columns = this.columns.filter(shrink), sum = columns.reduce((all, column) => all + column.width, 0);
-      const share = Math.min(1, Math.max(least, 1 - over / sum));
-      for (const column of columns) widths.set(column, Math.floor(share * column.width));
-      over -= (1 - share) * sum;
+    const words = c => c.text && !c.name && c.key !== 'cause', room = byId('tablebox').clientWidth;
+    const least = c => c.name ? Math.min(c.least, c.width) : words(c) ? Math.max(0.5 * c.width, Math.min(70, c.width)) : c.width;
+    const total = (columns, width) => columns.reduce((sum, column) => sum + width(column), 0);
+    let shown = this.columns;
+    for (const key of DROPPED) if (total(shown, least) > room) shown = shown.filter(c => c.key !== key);
+    const widths = new Map(shown.map(column => [column, column.width]));
+    for (const gives of [words, c => c.name]) {
+      const over = total(shown, c => widths.get(c)) - room, columns = shown.filter(gives), most = total(columns, c => c.width - least(c));
+      if (over > 0 && most > 0) for (const c of columns) widths.set(c, Math.floor(c.width - Math.min(1, over / most) * (c.width - least(c))));
     }
     this.columns.forEach((column, k) => {
+      const dropped = !widths.has(column);
+      for (const part of [column.col, column.head, ...this.rows.map(row => row.children[k])]) part.hidden = dropped;
+      if (dropped) return;
       column.col.style.width = `${widths.get(column)}px`;
       if (!column.name) return;
       const short = new Map();
@@ -111,6 +128,7 @@ class PairTable {
       const { key, text } = column;
       const cell = make('td', text ? '' : key === 'distance' ? 'n d' : 'n', cellText(column, pair));
       if (text) cell.title = pair[key];
+      if (key === 'link1' && pair.touches_first) cell.dataset.tag = 'first contact';
       if (key === 'cause' && pair.cause) cell.replaceChildren(make('b', `cause ${COVERS_ONLY.includes(pair.cause) ? '' : 'hit'}`, pair.cause));
       row.append(cell);
     }
@@ -129,13 +147,16 @@ class PairTable {
     choices('link', 'Any link', [...new Set(this.pairs.flatMap(p => [p.link1, p.link2]))].sort());
     choices('state', 'All pairs', Object.keys(STATES).filter(s => this.pairs.some(STATES[s][1])),
       Object.fromEntries(Object.entries(STATES).map(([key, [name]]) => [key, name])));
-    choices('reason', 'Any reason', values('reason'));
+    choices('reason', 'Any reason', values('reason'), { always: reasonWord('always') });
     choices('cause', 'Any cause', values('cause'));
     byId('search').oninput = () => this.fill();
-    byId('clear').onclick = () => {
-      for (const id of ['search', 'link', 'state', 'reason', 'cause']) byId(id).value = '';
-      this.fill();
-    };
+    byId('clear').onclick = () => this.filter({});
+  }
+
+  // The filters as given, all others open.
+  filter(values) {
+    for (const id of FILTERS) byId(id).value = values[id] || '';
+    this.fill();
   }
 
   // Every word of the search is part of one of the two names.
@@ -151,27 +172,20 @@ class PairTable {
     this.fill();
   }
 
-  // Rows that pass the filters, in order. What is not known comes last either way.
+  // Rows that pass the filters, in order.
   fill() {
     this.order = this.pairs.map((_, i) => i).filter(i => this.passes(this.pairs[i]));
-    const { key, sign } = this.sort, missing = v => v === null || v === undefined || v === '';
-    if (key) this.order.sort((a, b) => {
-      const x = this.pairs[a][key], y = this.pairs[b][key];
-      if (missing(x) || missing(y)) return missing(x) - missing(y);
-      return sign * (typeof x === 'string' ? x.localeCompare(y) : x - y);
-    });
+    const { key, sign } = this.sort;
+    if (key) this.order.sort((a, b) => compared(sortValue(this.pairs[a], key), sortValue(this.pairs[b], key), sign));
     document.querySelector('#table tbody').replaceChildren(...this.order.map(i => this.rows[i]));
-    for (const head of document.querySelectorAll('#table th')) {
-      if (head.dataset.key === key) head.setAttribute('aria-sort', sign > 0 ? 'ascending' : 'descending');
-      else head.removeAttribute('aria-sort');
-    }
-    const set = ['search', 'link', 'state', 'reason', 'cause'].filter(id => {
+    showOrder(document.querySelectorAll('#table th'), this.sort);
+    const set = FILTERS.filter(id => {
       byId(id).classList.toggle('set', byId(id).value !== '');
       return byId(id).value !== '';
     });
-    const counted = this.pairs.length === 1 ? '1 pair' : `${this.pairs.length} pairs`;
+    const all = counted(this.pairs.length, 'pair');
     byId('clear').hidden = !set.length;
-    byId('count').textContent = set.length ? `${this.order.length} of ${counted}` : counted;
+    byId('count').textContent = set.length ? `${this.order.length} of ${all}` : all;
     byId('nothing').hidden = this.order.length > 0;
     byId('nothing').textContent = this.pairs.length ? 'No pair passes these filters.' : 'The report has no pairs.';
   }
@@ -183,6 +197,14 @@ class PairTable {
       row.setAttribute('aria-selected', on);
     }
     this.selected = i;
+  }
+
+  // Into the table's box; the page stays where it is.
+  reveal(i) {
+    const box = byId('tablebox'), row = this.rows[i], head = document.querySelector('#table thead').offsetHeight;
+    if (!row.isConnected) return;
+    const top = row.getBoundingClientRect().top - box.getBoundingClientRect().top;
+    if (top < head || top + row.offsetHeight > box.clientHeight) box.scrollTop += top - (box.clientHeight - row.offsetHeight) / 2;
   }
 
   // Up and down arrows walk through the rows.
