@@ -26,7 +26,7 @@ bool turns(const JointModel& joint) {
   return joint.type == JointType::revolute || joint.type == JointType::continuous;
 }
 
-// Such a joint does not keep its two links near each other.
+// A planar or floating joint does not keep its two links near each other.
 bool leavesFree(const JointModel& joint) {
   return joint.type == JointType::planar || joint.type == JointType::floating;
 }
@@ -80,7 +80,7 @@ Adjacency::Adjacency(const RobotModel& robot, const RobotGeometry& geometry)
 Joining Adjacency::of(int link1, int link2) const {
   if (part_[at(link1)] == part_[at(link2)]) return Joining::rigid;
   const JointPath path = jointPath(robot_, link1, link2);
-  // Of the last joint that moves: its origin and the part it leads to.
+  // The last joint that moves: its origin and the part it leads to.
   const JointModel* last = nullptr;
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();
   int after = link1;
@@ -101,8 +101,8 @@ Joining Adjacency::of(int link1, int link2) const {
   return owner_[at(after)] == link2 ? Joining::adjacent : Joining::separate;
 }
 
-// A joint's origin in the frame of the part of its parent link or of its child link. A turning joint leaves
-// it where it is in both, so that origins that coincide in one configuration do so in all.
+// A joint's origin in the frame of the part of its parent link or of its child link. A turning joint does not
+// move its origin relative to either part. So origins that coincide in one configuration coincide in all.
 Eigen::Vector3d Adjacency::originOn(const JointModel& joint, bool parent) const {
   if (parent) return (pose_[at(joint.parent)] * joint.origin).translation();
   return pose_[at(joint.child)].translation();

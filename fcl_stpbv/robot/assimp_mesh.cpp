@@ -39,9 +39,9 @@ Eigen::AlignedBox3d boxAround(const std::vector<Vector3d>& points) {
 // noticeably. `far` is the largest intermediate coordinate in the nodes' transforms, which may cancel (m). A
 // single point may have been a small body before rounding.
 void requireNear(const Eigen::AlignedBox3d& box, double far, bool several, const std::string& path) {
-  constexpr double kStep = 1.0 / (1 << 23);  // of a coordinate
-  constexpr double kSeen = 1e-3;             // of the body's size
-  constexpr double kSmall = 0.1;             // m
+  constexpr double kStep = 1.0 / (1 << 23);  // relative rounding of a coordinate in single precision
+  constexpr double kSeen = 1e-3;  // largest rounding that is accepted, as a share of the body's size
+  constexpr double kSmall = 0.1;  // size assumed for a single point (m)
   if (kStep * far > kSeen * (several ? box.sizes().maxCoeff() : kSmall))
     throw Error(
         path +
@@ -53,7 +53,8 @@ Vector3d vectorOf(const aiVector3D& v) {
   return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
 }
 
-// What a transform makes of lengths along each axis, summed: a bound on all that is added up on the way.
+// Largest lengths along each axis after a transform, as sums of magnitudes. So they bound all intermediate
+// sums.
 Vector3d reachOf(const aiMatrix4x4& m, const Vector3d& from) {
   const auto row = [&](float x, float y, float z, float at) {
     const Vector3d linear(static_cast<double>(x), static_cast<double>(y), static_cast<double>(z));
@@ -67,7 +68,7 @@ class Gatherer {
  public:
   Gatherer(const std::string& path, const Vector3d& scale) : path_(path), scale_(scale) {}
 
-  /// `way`: a bound on the numbers that its transforms were multiplied from.
+  /// Adds a mesh. `way`: a bound on the numbers that `transform` was multiplied from.
   void add(const aiMesh& mesh, const aiMatrix4x4& transform, const Vector3d& way) {
     std::vector<int> index;
     index.reserve(mesh.mNumVertices);
@@ -80,7 +81,7 @@ class Gatherer {
     }
     for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
       const aiFace& face = mesh.mFaces[f];
-      if (face.mNumIndices != 3) continue;  // lone points and lines
+      if (face.mNumIndices != 3) continue;  // single points and lines
       std::array<int, 3> triangle{};
       for (unsigned k = 0; k < 3; ++k) {
         if (face.mIndices[k] >= mesh.mNumVertices)
@@ -118,8 +119,8 @@ class Gatherer {
   Vector3d scale_;
   TriangleMesh mesh_;
   std::optional<Vector3d> first_;
-  Vector3d far_{0, 0, 0};  // the largest numbers on the way, before the scale
-  bool several_ = false;   // distinct points before they are scaled, by a node or here
+  Vector3d far_{0, 0, 0};  // bound on intermediate coordinates, before the scale
+  bool several_ = false;   // whether there are distinct points before any scaling, by a node or here
   std::unordered_map<Vector3d, int, VectorHash> index_;
 };
 
@@ -159,7 +160,7 @@ double outlinedArea(const aiScene& scene) {
   return sum;
 }
 
-// `far` gets the largest number within the nodes' transforms, where the format tells (m).
+// `far` receives the largest number within the nodes' transforms, if the format's check computes it (m).
 const aiScene& read(Assimp::Importer& importer, ReadableFiles& files, const std::string& path, double& far) {
   const std::string text = readText(path), expected = expectedFormat(text, path);
   const auto check = [&](const std::string& format) {
@@ -167,22 +168,22 @@ const aiScene& read(Assimp::Importer& importer, ReadableFiles& files, const std:
   };
   check(expected);
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
-  // Without a mesh there is no body: assimp would draw the nodes as one.
+  // Without this setting, assimp would draw the nodes of a file without meshes as a body.
   importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
   const aiScene* scene = importer.ReadFile(path, 0);
   if (scene != nullptr) {
     if (const std::string format = formatOf(*scene, importer); format != expected) check(format);
     checkFaces(*scene, path);
-    constexpr double kRounding = 1e-9;  // of sums of doubles, and far less than a face
+    constexpr double kRounding = 1e-9;  // for sums of doubles; far less than the area of a face
     const double area = outlinedArea(*scene);
     scene = importer.ApplyPostProcessing(aiProcess_Triangulate);
-    // assimp leaves out what it cannot split of a polygon with corners on one line.
+    // If a polygon has corners on one line, assimp leaves out what it cannot split.
     if (scene != nullptr && outlinedArea(*scene) < (1 - kRounding) * area)
       throw Error(path +
                   ": a face of many corners cannot be split into triangles; export the mesh as triangles");
   }
   if (scene == nullptr || scene->mRootNode == nullptr) {
-    constexpr std::size_t kLongest = 200;  // assimp may quote the file from there to its end
+    constexpr std::size_t kLongest = 200;  // characters; assimp may quote the file up to its end
     std::string why = importer.GetErrorString();
     if (why.size() > kLongest) why = why.substr(0, kLongest) + " ...";
     throw Error(path + ": cannot be read as a mesh (" + why + "); give a whole file of " + kReadable);
@@ -193,7 +194,7 @@ const aiScene& read(Assimp::Importer& importer, ReadableFiles& files, const std:
 }  // namespace
 
 void requireSize(const std::vector<Vector3d>& points, bool several, const std::string& path) {
-  constexpr double kLeast = 1e-9;  // an atom is a tenth of it (m)
+  constexpr double kLeast = 1e-9;  // 1 nm (m); an atom has about a tenth of that
   if (several && boxAround(points).sizes().maxCoeff() < kLeast)
     throw Error(path + ": is smaller than 1e-9 m along each axis; give it the right unit or scale");
 }
@@ -201,7 +202,7 @@ void requireSize(const std::vector<Vector3d>& points, bool several, const std::s
 TriangleMesh readByAssimp(const std::string& path, const Vector3d& scale, ChildLimits& limits) {
   Assimp::Importer importer;
   auto* const files = new ReadableFiles(path, limits);
-  importer.SetIOHandler(files);  // which deletes it
+  importer.SetIOHandler(files);  // the importer deletes `files`
   double far = 0;
   const aiScene& scene = read(importer, *files, path, far);
   Gatherer gatherer(path, scale);

@@ -22,14 +22,14 @@ void requireSize(Index rows, Index columns, Index wantedRows, Index wantedColumn
 }
 
 int checkedThreads(int threads) {
-  constexpr int kMost = 256;  // each has a copy of all rows
+  constexpr int kMost = 256;  // each thread has a copy of all rows
   if (threads < 1 || threads > kMost)
     throw Error("a batch's threads: got " + std::to_string(threads) + ", expected 1 to " +
                 std::to_string(kMost));
   return threads;
 }
 
-/// One worker for each thread, a copy of the first.
+/// One worker for each thread. All are copies of the first.
 template <class Worker>
 class Crew {
  public:
@@ -38,8 +38,8 @@ class Crew {
 
   Worker& first() { return workers_.front(); }
 
-  /// `work(worker, column)` for each column of a batch, by a worker that remembers only the column before,
-  /// and that on a path alone.
+  /// Calls `work(worker, column)` for each column of a batch. A worker remembers the column before it only on
+  /// a path, and only within one piece.
   template <class Work>
   void each(Index columns, Sequence sequence, const Work& work) {
     // Pieces are small enough to share out evenly; a path's first column costs some more.

@@ -26,7 +26,7 @@ constexpr Eigen::Index kBatchPiece = 64;
 /// thread-safe: only one thread at a time may call it.
 class ConstraintsBatch {
  public:
-  using Configurations = Eigen::Ref<const Eigen::MatrixXd>;  ///< one a column
+  using Configurations = Eigen::Ref<const Eigen::MatrixXd>;  ///< one configuration per column
   using Matrix = Eigen::Ref<Eigen::MatrixXd>;                ///< output matrix
 
   /// @throws Error unless `threads` is from 1 to 256.
@@ -41,7 +41,8 @@ class ConstraintsBatch {
   /// a column of q that is not finite, see CollisionConstraints::evaluate. @returns whether all of q was
   /// finite. @throws Error for matrices of a wrong size.
   bool evaluate(const Configurations& q, Sequence sequence, Matrix d);
-  /// The same with the non-zero entries of J: `values` is nonZeros() x N, in the structure of makeJacobian().
+  /// evaluate() that also writes the non-zero entries of J. `values` is nonZeros() x N, in the structure of
+  /// makeJacobian().
   bool evaluateValues(const Configurations& q, Sequence sequence, Matrix d, Matrix values);
 
  private:
@@ -53,7 +54,7 @@ class ConstraintsBatch {
 /// The results of a CollisionChecker for many configurations, computed in the same way.
 class CheckerBatch {
  public:
-  using Configurations = Eigen::Ref<const Eigen::MatrixXd>;            ///< one a column
+  using Configurations = Eigen::Ref<const Eigen::MatrixXd>;            ///< one configuration per column
   using Verdicts = Eigen::Ref<Eigen::Array<bool, Eigen::Dynamic, 1>>;  ///< one entry per configuration
 
   /// @throws Error unless `threads` is from 1 to 256.

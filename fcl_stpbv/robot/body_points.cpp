@@ -16,7 +16,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr int kRimCorners = 24;  // a polygon around a rim is then 0.9 % wider than it
+constexpr int kRimCorners = 24;  // the polygon is then 0.9 % wider than the rim
 
 void addRim(double radius, double z, std::vector<Vector3d>& points) {
   const double around = radius / std::cos(kPi / kRimCorners);
@@ -59,7 +59,7 @@ std::vector<Vector3d> cornersOf(const Shape& shape) {
       addRim(shape.radius, -shape.half, points);
       points.emplace_back(0, 0, shape.half);
       break;
-    default:  // unbounded
+    default:  // the body is unbounded
       break;
   }
   return points;
@@ -74,7 +74,7 @@ double widthAlong(const Vector3d& n, const std::vector<Vector3d>& points) {
   return high - low;
 }
 
-// Along the axes of a cube and its diagonals, of faces and of the whole.
+// Least width along the axes of a cube, its face diagonals and its space diagonals.
 double narrowestOf(const std::vector<Vector3d>& points) {
   double least = INFINITY;
   for (int k = 14; k < 27; ++k) {
@@ -89,7 +89,7 @@ double widestOf(const BodyPoints& body) { return 2 * (body.reach + body.radius);
 }  // namespace
 
 double mostDepth(const BodyPoints& a, const BodyPoints& b) {
-  constexpr double kRounding = 1 + 1e-12;  // of some products and sums, each to 1e-16
+  constexpr double kRounding = 1 + 1e-12;  // each of a few products and sums is rounded by 1e-16
   return 0.5 * kRounding * std::min(a.narrowest + widestOf(b), widestOf(a) + b.narrowest);
 }
 

@@ -1,4 +1,4 @@
-// Joins a cylinder and two spheres of its radius at its ends to a capsule, as URDF has none of its own.
+// Joins a cylinder and two spheres of its radius at its ends to a capsule, because URDF has no capsule.
 #include "fcl_stpbv/robot/capsule_fit.h"
 
 #include <algorithm>
@@ -7,7 +7,7 @@
 namespace fcl_stpbv::detail {
 namespace {
 
-// Digits that writers of URDF keep.
+// Numbers may differ by this, because writers of URDF keep about six digits (m).
 constexpr double kAlike = 1e-6;
 
 int sphereAt(const std::vector<ShapeModel>& shapes, const Eigen::Vector3d& centre, double radius) {
@@ -30,7 +30,7 @@ void joinCapsules(std::vector<ShapeModel>& shapes) {
     const int bottom = sphereAt(shapes, bottomAt, shapes[i].size.x());
     if (top < 0 || bottom < 0 || top == bottom) continue;
     shapes[i].kind = ShapeModel::Kind::capsule;
-    // Wide enough for ends that are off by their last digit.
+    // The capsule is wide enough for spheres that are off by their last digit.
     const auto take = [&](const ShapeModel& sphere, const Eigen::Vector3d& centre) {
       const double off = (sphere.pose.translation() - centre).norm();
       shapes[i].size.x() = std::max(shapes[i].size.x(), sphere.size.x() + off);
@@ -40,7 +40,7 @@ void joinCapsules(std::vector<ShapeModel>& shapes) {
     take(shapes[static_cast<std::size_t>(bottom)], bottomAt);
     shapes.erase(shapes.begin() + std::max(top, bottom));
     shapes.erase(shapes.begin() + std::min(top, bottom));
-    i = static_cast<std::size_t>(-1);  // indices moved: look again from the start
+    i = static_cast<std::size_t>(-1);  // the indices have changed: search again from the start
   }
 }
 

@@ -8,7 +8,7 @@
 namespace fcl_stpbv::detail {
 
 /// Replaces each cylinder that has a sphere of its radius centred on both ends, to a micrometre, by one
-/// capsule that holds all three; the spheres go.
+/// capsule that contains all three. The spheres are removed.
 void joinCapsules(std::vector<ShapeModel>& shapes);
 
 }  // namespace fcl_stpbv::detail

@@ -1,5 +1,5 @@
-// Pairs of bodies to check: of all links, but those the SRDF leaves out or, without one, rigid and adjacent
-// ones; and bodies against obstacles, but for links that do not move.
+// Makes the pairs of bodies to check. Pairs of two links: all except those that the SRDF leaves out, or
+// without an SRDF all except rigid and adjacent ones. Pairs with obstacles: all bodies of links that move.
 #include "fcl_stpbv/robot/checked_pairs.h"
 
 #include <set>

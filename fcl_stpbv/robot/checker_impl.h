@@ -19,7 +19,7 @@
 namespace fcl_stpbv {
 namespace detail {
 
-/// `v`, with 0 as the fourth number: of use in sums over all four.
+/// `v`, with 0 as the fourth number, so that sums over all four numbers are right.
 inline Packed pack3(const Eigen::Vector3d& v) { return Packed{v.x(), v.y(), v.z(), 0.0}; }
 
 /// A body of the robot or an obstacle. The world is an additional frame after those of the links.
@@ -27,23 +27,23 @@ struct PlacedBody {
   std::size_t frame;
   const fcl::CollisionGeometryd* geometry;
   Eigen::Isometry3d inFrame;
-  Eigen::Vector3d centre;  ///< of a sphere that holds it, in its frame (m)
+  Eigen::Vector3d centre;  ///< centre of a sphere that contains the body, in the body's frame (m)
   double radius;           ///< of that sphere (m)
   /// Radius of a ball about the same centre inside the body (m); -inf if the centre may be outside.
   double inner;
-  bool finite;  ///< its corners are numbers, if it is a mesh
+  bool finite;  ///< whether all corners are finite, if the body is a mesh
   bool convex;
-  ConvexBody body;  ///< where it is convex; posed at the last query
+  ConvexBody body;  ///< set if the body is convex; its pose is that of the last query
 };
 
 /// A pair of bodies and its separating plane.
 struct KeptPair {
-  std::size_t a, b;     ///< among the bodies
-  double bend;          ///< half the second body's R; infinite where it is no STP-BV (m)
-  double rounding;      ///< of their gap along a kept plane, but for the poses' (m)
-  long lastHit = 0;     ///< the configuration's number
-  bool kept = false;    ///< whether there is a plane, by its directions
-  bool lifted = false;  ///< whether its height is known; it is computed when it is first needed
+  std::size_t a, b;     ///< indices of the bodies
+  double bend;          ///< half the second body's R; infinite if it is no STP-BV (m)
+  double rounding;      ///< rounding of the gap along a kept plane, without the rounding of the poses (m)
+  long lastHit = 0;     ///< number of the last configuration in which the pair collided
+  bool kept = false;    ///< whether the plane's directions are known
+  bool lifted = false;  ///< whether the plane's height is known; it is computed when it is first needed
   KeptPlane plane{};
   PairCache cache;
 };
@@ -89,12 +89,13 @@ class CollisionChecker::Impl {
   std::shared_ptr<const RobotGeometry> geometry_;
   std::vector<CheckedPair> pairs_;
   std::vector<Obstacle> obstacles_;
-  double margin_ = 0, largest_ = 0, slack_ = 0;  // of the margin, of all radii, of the poses' rounding (m)
-  Kinematics::State state_;                      // with the world's frame as one more link
+  // The margin, the largest of all radii, and a bound on the poses' rounding (m).
+  double margin_ = 0, largest_ = 0, slack_ = 0;
+  Kinematics::State state_;  // with the world's frame as one more link
   std::vector<detail::PlacedBody> bodies_;
-  std::vector<std::size_t> placed_;            // those that pairs have
-  Kinematics::Subtree placing_;                // their links
-  std::vector<detail::SphereCentre> centres_;  // of the bodies' spheres
+  std::vector<std::size_t> placed_;            // indices of the bodies that occur in pairs
+  Kinematics::Subtree placing_;                // the links of these bodies
+  std::vector<detail::SphereCentre> centres_;  // centres of the bodies' spheres
   std::vector<detail::KeptPair> checked_;
   detail::SpherePairs near_;
   std::vector<Hit> hits_;

@@ -78,7 +78,8 @@ void CollisionChecker::Impl::addPair(const CheckedPair& pair) {
   added.bend = b.body.volume ? 0.5 * b.body.volume->radii().R : kInfinity;
   added.rounding = kGapRounding * (a.radius + b.radius) + 2 * (a.body.supportError() + b.body.supportError());
   if (a.convex && b.convex) added.rounding += kGapRounding * (a.body.extent() + b.body.extent());
-  if (b.body.volume) added.rounding += kGapRounding * b.body.volume->radii().R;  // 1 + u.w for |t|^2 / 2
+  // For 1 + u.w, which stands for |t|^2 / 2.
+  if (b.body.volume) added.rounding += kGapRounding * b.body.volume->radii().R;
   checked_.push_back(added);
 }
 
@@ -97,7 +98,7 @@ void CollisionChecker::Impl::setMargin(double margin) {
     const KeptPair& pair = checked_[p];
     const double reach = bodies_[pair.a].radius + bodies_[pair.b].radius + margin;
     near_.set(p, pair.a, pair.b,
-              reach >= 0 ? reach : kInfinity);  // spheres say nothing about so deep an overlap
+              reach >= 0 ? reach : kInfinity);  // for such a deep overlap the spheres prove nothing
   }
 }
 

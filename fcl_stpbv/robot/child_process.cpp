@@ -24,8 +24,7 @@
 namespace fcl_stpbv::detail {
 namespace {
 
-// What meshes take at most is about 150 bytes of memory and 2 us of processor
-// time a byte (docs/file_formats.md).
+// Meshes take at most about 150 bytes of memory and 2 us of processor time per byte (docs/file_formats.md).
 constexpr std::size_t kMemory = 256u << 20, kMemoryPerByte = 256;
 constexpr double kSeconds = 5, kSecondsPerByte = 5e-6;
 
@@ -47,8 +46,8 @@ void writeAll(int to, const char* data, std::size_t size) {
   }
 }
 
-/// Writes the outcome, the size of the text, and the text. So the parent notices a child that ended in
-/// between.
+/// Writes the outcome, the size of the text, and the text. The size lets the parent notice a child that ended
+/// in between.
 [[noreturn]] void answer(int to, Outcome outcome, const std::string& text) {
   const std::size_t size = text.size();
   writeAll(to, reinterpret_cast<const char*>(&outcome), 1);
@@ -85,7 +84,7 @@ std::string readAll(int from) {
   }
 }
 
-/// Waits for the child; its signal, or 0 where it ended by itself or somebody else waited for it.
+/// Waits for the child. @returns its signal, or 0 if it ended by itself or somebody else waited for it.
 int signalOf(pid_t pid) {
   int status = 0;
   while (::waitpid(pid, &status, 0) < 0)
@@ -100,7 +99,8 @@ ChildLimits::ChildLimits() : memory_(addressSpace() + kMemory), seconds_(kSecond
 void ChildLimits::allow(std::size_t bytes) {
   memory_ += kMemoryPerByte * bytes;
   seconds_ += kSecondsPerByte * static_cast<double>(bytes);
-  const auto lower = [](auto resource, rlim_t limit) {  // as far as the limits that we were given leave it
+  // Sets the limit as far as this process's own limits allow it.
+  const auto lower = [](auto resource, rlim_t limit) {
     rlimit both{};
     if (::getrlimit(resource, &both) != 0) return;
     both.rlim_cur = both.rlim_max == RLIM_INFINITY ? limit : std::min(limit, both.rlim_max);

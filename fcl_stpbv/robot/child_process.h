@@ -13,7 +13,7 @@ class ChildLimits {
  public:
   /// The initial limits: a base amount for any file.
   ChildLimits();
-  /// More, for a file of this many bytes.
+  /// Raises the limits for a file of this many bytes.
   void allow(std::size_t bytes);
 
  private:
@@ -22,8 +22,8 @@ class ChildLimits {
 };
 
 /// Runs `work` in a child process and returns what it returns. `name` stands for the file in messages.
-/// @throws Error what `work` throws; or that the file is damaged, if the child crashed or exceeded its
-/// limits.
+/// @throws Error an error that `work` throws, or an error that the file is damaged if the child crashed or
+/// exceeded its limits.
 std::string inChildProcess(const std::string& name, const std::function<std::string(ChildLimits&)>& work);
 
 }  // namespace fcl_stpbv::detail

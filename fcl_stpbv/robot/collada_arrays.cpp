@@ -1,5 +1,5 @@
 // Checks the sources of COLLADA's geometries and the indices into them, in the order in which assimp reads
-// them: an id means the last one before its use.
+// them, because an id refers to the last element with this id before its use.
 #include "fcl_stpbv/robot/collada_arrays.h"
 
 #include <algorithm>
@@ -15,21 +15,21 @@ namespace {
 
 using tinyxml2::XMLElement;
 
-// The uses of a source that assimp knows. It passes over others.
+// The uses of a source that assimp knows. It ignores other uses.
 constexpr Words kSemantics{"POSITION", "NORMAL",     "TEXCOORD", "COLOR",
                            "TANGENT",  "TEXTANGENT", "BINORMAL", "TEXBINORMAL"};
 constexpr Words kPrimitives{"triangles", "lines",   "linestrips", "polygons",
                             "polylist",  "trifans", "tristrips"};
 
-// With a misspelt attribute assimp would read a table from a wrong place.
+// If an attribute is misspelt, assimp reads the table from a wrong place.
 constexpr Words kOfAccessor{"count", "offset", "source", "stride"};
 
 struct Accessor {
   const XMLElement* element = nullptr;
   std::string array;
   std::size_t count = 0, offset = 0, stride = 1;
-  std::size_t width = 1;  // values that one item reaches over
-  bool hasPoint = false;  // values for x, y and z
+  std::size_t width = 1;  // number of values from the first to the last one of an item
+  bool hasPoint = false;  // whether there are values for x, y and z
 };
 
 std::string idOf(const XMLElement& element) {
@@ -85,8 +85,8 @@ class ColladaArrays {
     accessor.count = colladaWhole(element, "count", 0, name_);
     accessor.offset = colladaWhole(element, "offset", 0, name_);
     accessor.stride = colladaWhole(element, "stride", 1, name_);
-    // assimp tells coordinates, colours and texture coordinates by these names, and takes the first value for
-    // those without one.
+    // assimp recognises coordinates, colours and texture coordinates by these names. It takes the first value
+    // for parameters without a name.
     static const std::map<std::string_view, std::size_t> kParts{{"X", 0}, {"R", 0}, {"S", 0}, {"U", 0},
                                                                 {"Y", 1}, {"G", 1}, {"T", 1}, {"V", 1},
                                                                 {"Z", 2}, {"B", 2}, {"P", 2}, {"A", 3}};
@@ -110,7 +110,7 @@ class ColladaArrays {
 
   void checkPrimitives(const XMLElement& primitives, const std::vector<const XMLElement*>& vertexInputs) {
     std::vector<const XMLElement*> inputs;
-    std::vector<std::pair<const XMLElement*, std::size_t>> runs;  // of indices
+    std::vector<std::pair<const XMLElement*, std::size_t>> runs;  // lists of indices
     std::size_t indices = 0, counts = 0;
     for (const XMLElement* element : allBelow(primitives)) {
       const std::string_view kind = element->Name();
@@ -141,13 +141,13 @@ class ColladaArrays {
     for (const XMLElement* input : inputs) checkInput(*input);
   }
 
-  // assimp leaves out the vertices of lines and strips that are not whole.
+  // assimp leaves out vertices of incomplete lines and strips.
   void checkRuns(const XMLElement& primitives, const std::vector<const XMLElement*>& inputs,
                  const std::vector<std::pair<const XMLElement*, std::size_t>>& runs) const {
     const std::string_view kind = primitives.Name();
     const bool lines = kind == "lines", lineStrips = kind == "linestrips";
     if (!lines && !lineStrips && kind != "tristrips" && kind != "trifans") return;
-    std::size_t each = 1;  // indices for a vertex
+    std::size_t each = 1;  // number of indices per vertex
     for (const XMLElement* input : inputs)
       each = std::max(each, 1 + colladaWhole(*input, "offset", 0, name_));
     const std::size_t least = lines || lineStrips ? 2 : 3;

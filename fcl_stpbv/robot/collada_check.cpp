@@ -34,7 +34,7 @@ double metresOf(const XMLElement& unit, const std::string& name) {
   return value;
 }
 
-// assimp applies the document's own unit to all of it.
+// Finds a second unit: assimp applies the document's own unit to the whole document.
 class OneUnit : public tinyxml2::XMLVisitor {
  public:
   OneUnit(const XMLElement& root, const std::string& name) : root_(root), name_(name) {}
@@ -115,12 +115,12 @@ constexpr Words kInGeometry{"asset", "mesh", "convex_mesh", "spline", "brep", "e
 constexpr Words kInMesh{"source",   "vertices",  "lines",   "linestrips", "polygons",
                         "polylist", "triangles", "trifans", "tristrips",  "extra"};
 
-// The shapes that the nodes of a document place, and the transforms to there.
+// Finds the shapes that the nodes of a document place, and bounds the transforms that lead to them.
 class ColladaNodes {
  public:
   ColladaNodes(const XMLElement& root, const std::string& name) : root_(root), name_(name) {}
 
-  /// How far the transforms within a node above a shape go, in the document's unit.
+  /// @returns how far the transforms within a node above a shape go, in the document's unit.
   double check() {
     checkKnown(root_, kInRoot, name_);
     for (const XMLElement* e = root_.FirstChildElement("asset"); e; e = e->NextSiblingElement("asset"))
@@ -129,7 +129,7 @@ class ColladaNodes {
     forEach("library_nodes", "node", [this](const XMLElement& e) { addNode(e); });
     forEach("library_visual_scenes", "visual_scene", [this](const XMLElement& e) { addScene(e); });
     forEach("library_visual_scenes", "visual_scene", [this](const XMLElement& e) { checkNode(e, 1); });
-    // Again where nodes of the library hold others of it, which may have been checked before.
+    // Repeat if nodes of the library contain other nodes of it, which may have been checked before.
     constexpr int kRounds = 16;
     std::map<std::string, double> before;
     for (int round = 0; round < kRounds && (round == 0 || before != instanced_); ++round) {
@@ -166,7 +166,7 @@ class ColladaNodes {
       refuseCollada(node, "has an id that another one has", name_);
   }
 
-  // assimp finds the nodes below the scene that is shown by their names as well.
+  // assimp also finds the nodes below the shown scene by their names.
   void addScene(const XMLElement& scene) {
     const XMLElement* shown = root_.FirstChildElement("scene");
     if (shown != nullptr) shown = shown->FirstChildElement("instance_visual_scene");
@@ -183,7 +183,7 @@ class ColladaNodes {
     }
   }
 
-  // Whether a shape is in it or below. `above`: the stretch of the nodes around it.
+  // Whether the node or one below it contains a shape. `above`: the stretch of the nodes around it.
   bool checkNode(const XMLElement& node, double above) {
     checkKnown(node, kInNode, name_);
     ColladaReach reach;
@@ -235,9 +235,9 @@ class ColladaNodes {
   const XMLElement& root_;
   const std::string& name_;
   std::map<std::string, const XMLElement*> shapes_;  // geometries
-  std::set<std::string> nodes_;                      // those that an <instance_node> may name
-  std::map<std::string, double> instanced_;          // nodes, and the largest stretch around an instance
-  double far_ = 0;                                   // check()
+  std::set<std::string> nodes_;                      // ids that an <instance_node> may name
+  std::map<std::string, double> instanced_;          // by node: the largest stretch around an instance
+  double far_ = 0;                                   // the result of check()
 };
 
 }  // namespace
@@ -253,7 +253,7 @@ double checkCollada(std::string_view text, const std::string& name) {
                             "); give a whole file of COLLADA"));
   }
   const XMLElement* root = document.RootElement();
-  if (root == nullptr) return 0;  // assimp says so
+  if (root == nullptr) return 0;  // assimp reports this
   if (const XMLElement* second = root->NextSiblingElement())
     throw Error(xmlPlace(*second, name) + "not XML (a second root, <" + second->Name() +
                 ">); give a whole file of COLLADA");

@@ -1,6 +1,6 @@
-// Checks transforms of COLLADA's nodes. assimp normalises no axis of a <rotate>, makes the matrix of a
-// <lookat> from its directions as they are, and leaves out the last row of a <matrix>: the body would be
-// stretched, sheared, flat or of another size.
+// Checks transforms of COLLADA's nodes. assimp does not normalise the axis of a <rotate>, uses the directions
+// of a <lookat> as they are, and leaves out the last row of a <matrix>. So the body would be stretched,
+// sheared, flat or of another size.
 #include "fcl_stpbv/robot/collada_transforms.h"
 
 #include <Eigen/Geometry>
@@ -20,8 +20,8 @@ namespace {
 using Eigen::Vector3d;
 using tinyxml2::XMLElement;
 
-// What an axis or a right angle may be off by: it stretches the body by 0.0004 % at most, and numbers with
-// six digits keep it.
+// Tolerance for the length of an axis and for a right angle. Such an error stretches the body by 0.0004 % at
+// most. Numbers with six digits keep the tolerance.
 constexpr double kSlack = 1e-6;
 
 Vector3d vectorAt(const std::vector<double>& numbers, std::size_t first) {
@@ -45,7 +45,7 @@ void checkView(const XMLElement& element, const std::vector<double>& numbers, co
       "to that view; export the node with a <matrix>");
 }
 
-// Written column by column, the translation would be in the last row.
+// A matrix written column by column has its translation in the last row.
 void checkMatrix(const XMLElement& element, const std::vector<double>& numbers, const std::string& name) {
   if (numbers[12] == 0 && numbers[13] == 0 && numbers[14] == 0 && numbers[15] == 1) return;
   throw Error(xmlPlace(element, name) +

@@ -14,7 +14,7 @@ using tinyxml2::XMLElement;
 
 constexpr const char* kIndex = "a whole number from 0";
 
-// The line of a place in a text, whose own line is that of its first word.
+// The line of the character `at` in a text. tinyxml2 gives the line of the text's first word.
 int lineWithin(const tinyxml2::XMLText& text, std::size_t at) {
   const std::string_view value = text.Value();
   const std::size_t start = std::min(value.find_first_not_of(" \t\r\n"), at);

@@ -15,23 +15,23 @@ namespace fcl_stpbv::detail {
 [[noreturn]] void refuseCollada(const tinyxml2::XMLElement& element, const std::string& message,
                                 const std::string& name);
 
-/// The id that an attribute refers to as "#id". @throws Error where it has another form.
+/// The id that an attribute refers to as "#id". @throws Error if the attribute has another form.
 std::string colladaTarget(const tinyxml2::XMLElement& element, const char* attribute,
                           const std::string& name);
 
 /// @throws Error for an attribute that is not among `known`.
 void checkColladaAttributes(const tinyxml2::XMLElement& element, const Words& known, const std::string& name);
 
-/// The whole number that an attribute states, `missing` where there is none. @throws Error for what is no
+/// The whole number in an attribute, or `missing` if there is no such attribute. @throws Error if it is not a
 /// whole number from 0.
 std::size_t colladaWhole(const tinyxml2::XMLElement& element, const char* attribute, std::size_t missing,
                          const std::string& name);
 
-/// How many numbers the element's text has. @throws Error where one is no finite number, or where a comment
-/// or another element divides the text: assimp reads its first part only.
+/// Number of numbers in the element's text. @throws Error if one of them is not a finite number, or if a
+/// comment or another element divides the text, because then assimp reads only the first part.
 std::size_t countNumbers(const tinyxml2::XMLElement& element, const std::string& name);
 
-/// The same of indices, whole numbers from 0.
+/// Number of indices in the element's text: whole numbers from 0. @throws Error as countNumbers() does.
 std::size_t countIndices(const tinyxml2::XMLElement& element, const std::string& name);
 
 /// The numbers that countNumbers() counts.

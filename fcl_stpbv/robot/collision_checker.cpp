@@ -28,7 +28,7 @@ bool CollisionChecker::Impl::place(const ConstVector& q) {
   if (q.size() != kinematics_->size() || !q.allFinite()) return false;
   kinematics_->forwardPoses(q, state_, placing_);
   placeSpheres();
-  constexpr double kMost = 1e-3;  // m; links so far away that rounding moves them more are nowhere
+  constexpr double kMost = 1e-3;  // m; for links so far away that rounding moves them more, nothing is known
   return slack_ < kMost;
 }
 
@@ -42,7 +42,8 @@ void CollisionChecker::Impl::placeSpheres() {
     centres_[i].at = c;
     most = larger(most, larger(c, -c));
   }
-  // The products of a chain of links and the poses of both bodies, each off by some units in the last place.
+  // For the products of a chain of links and the poses of both bodies, each rounded by a few units in the
+  // last place.
   slack_ = 2 * kGapRounding * (largest(most) + largest_);
 }
 
@@ -70,7 +71,7 @@ const std::vector<Hit>& CollisionChecker::Impl::allHits(const ConstVector& q) {
   return hits_;
 }
 
-// From the pair that was closest last, so that the bounds of most others suffice.
+// Starts with the pair that was closest last, so that bounds suffice for most other pairs.
 double CollisionChecker::Impl::minDistance(const ConstVector& q) {
   if (!place(q)) return kLowest;
   std::size_t first = closest_;

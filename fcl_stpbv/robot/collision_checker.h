@@ -66,7 +66,7 @@ class CollisionChecker {
 
   /// The margin (m).
   double margin() const;
-  /// Sets it. @throws Error for one that is not a number.
+  /// Sets the margin (m). @throws Error for a value that is not a number.
   void setMargin(double margin);
 
   /// Whether any pair is not known to be clear.
@@ -74,7 +74,8 @@ class CollisionChecker {
   /// A pair that is not known to be clear: the first one found. No value if all pairs are clear. A Hit with
   /// pair -1 if q is not a valid configuration.
   std::optional<Hit> firstHit(const ConstVector& q);
-  /// All such pairs, in ascending order. A single Hit with pair -1 if q is not a valid configuration.
+  /// All pairs that are not known to be clear, in ascending order. A single Hit with pair -1 if q is not a
+  /// valid configuration.
   const std::vector<Hit>& allHits(const ConstVector& q);
   /// The least signed distance of all pairs (m), as in CollisionConstraints; for deep overlap it is a lower
   /// bound. The lowest double if q is not a valid configuration or a pair has no distance.

@@ -3,7 +3,7 @@
 // 2. for each row: skip the pair if its bounding spheres prove that it is beyond the influence; otherwise
 //    compute the distance, starting from its last answer;
 // 3. the row of J is the gradient's product with the twists of the joints that move the pair (paper, eq. 2);
-// 4. let the row go over from d to a constant before the influence distance, with continuous second
+// 4. let the row change from d to a constant before the influence distance, with continuous second
 //    derivatives.
 #include "fcl_stpbv/robot/constraints.h"
 
@@ -198,8 +198,9 @@ RowAnswer CollisionConstraints::answer(int row) const {
   return answer;
 }
 
-// The query, but for pairs too far apart: status `invalid`, and the largest value that a row may have. A
-// query that failed, as with links 1e160 m away, is not clear: the lowest value.
+// Queries the row's pair. If its spheres are too far apart, the status is `invalid` and the distance is the
+// largest value that a row may have. If the query fails, as with links 1e160 m away, the distance is the
+// lowest value, because the pair is not proven clear.
 CollisionConstraints::Witness CollisionConstraints::query(std::size_t row) {
   const Row& r = rows_[row];
   const double apart = (centre_[at(r.b)] - centre_[at(r.a)]).squaredNorm();
@@ -217,7 +218,7 @@ CollisionConstraints::Witness CollisionConstraints::query(std::size_t row) {
   return known(row);
 }
 
-// What the last query found. Where its status is `invalid` only the distance says anything.
+// The result of the last query. If its status is `invalid`, only the distance has a meaning.
 CollisionConstraints::Witness CollisionConstraints::known(std::size_t row) const {
   if (!rows_[row].first) {
     const DistanceAnswer& answer = answers_[row];

@@ -113,11 +113,11 @@ class CollisionConstraints {
   /// answer() is `invalid`. For a finite q, the same holds for the row of a pair without a distance, for
   /// example with links 1e160 m away. @returns whether q was finite.
   bool evaluate(const ConstVector& q, Vector d);
-  /// The same with the nonZeros() entries of J.
+  /// evaluate() that also writes the nonZeros() entries of J.
   bool evaluateValues(const ConstVector& q, Vector d, Vector values);
-  /// The same with J in the structure of makeJacobian().
+  /// evaluate() that also writes J in the structure of makeJacobian().
   bool evaluate(const ConstVector& q, Vector d, SparseJacobian& jacobian);
-  /// The same with J as a dense matrix, rows() x columns().
+  /// evaluate() that also writes J as a dense matrix, rows() x columns().
   bool evaluate(const ConstVector& q, Vector d, Eigen::Ref<Eigen::MatrixXd> jacobian);
 
   /// Vectors of the right size for evaluate(q, qd).
@@ -128,9 +128,9 @@ class CollisionConstraints {
   /// the few answers without a second derivative. If q or qd is not finite, or qd is above 1e100 so that its
   /// square may overflow, d and J are as for a q that is not finite, and the rates are 0.
   bool evaluateValues(const ConstVector& q, const ConstVector& qd, RowRates& rates, Vector values);
-  /// The same with J in the structure of makeJacobian().
+  /// The same evaluation with J in the structure of makeJacobian().
   bool evaluate(const ConstVector& q, const ConstVector& qd, RowRates& rates, SparseJacobian& jacobian);
-  /// The same with J as a dense matrix.
+  /// The same evaluation with J as a dense matrix.
   bool evaluate(const ConstVector& q, const ConstVector& qd, RowRates& rates,
                 Eigen::Ref<Eigen::MatrixXd> jacobian);
 
@@ -171,23 +171,23 @@ class CollisionConstraints {
   friend class ConstraintsBatch;
   struct Term {
     int motion;
-    int side;  // 0: it carries the first body, 1: the second
-    int slot;  // among the non-zeros
+    int side;  // 0: the motion moves the first body, 1: the second
+    int slot;  // index among the non-zero entries
   };
-  // Of a joint that carries both bodies, and that one between them mimics.
+  // A joint that moves both bodies, and that a joint between them mimics.
   struct CommonMotion {
     int motion;
     int slot;
   };
   struct Row {
-    const StpBv *first = nullptr, *second = nullptr;  // null where one of the two is no STP-BV
-    int a = 0, b = 0;                                 // places among pose_ and centre_
+    const StpBv *first = nullptr, *second = nullptr;  // null if one of the two is no STP-BV
+    int a = 0, b = 0;                                 // indices into pose_ and centre_
     int firstTerm = 0, lastTerm = 0;
     double far = 0;             // centres farther apart than this need no query
     double start = 0, end = 0;  // distances at which the row leaves the distance and becomes constant
-    int group = -1;             // index of its whole bodies' group, -1 for none
-    bool whole = false;         // hands over to the parts
-    bool finite = false;        // the vertices of both are finite, if they are meshes
+    int group = -1;             // index of the group of its whole bodies, -1 for none
+    bool whole = false;         // whether this is the row of a group's whole bodies
+    bool finite = false;        // whether all vertices of both bodies are finite, if they are meshes
     int firstCommon = 0, lastCommon = 0;
   };
   struct Witness {
@@ -242,30 +242,30 @@ class CollisionConstraints {
   ConstraintOptions options_;
   std::vector<int> rowStart_{0}, column_;
   std::vector<Row> rows_;
-  std::vector<int> groupOf_;           // of each pair, -1 for none
-  std::vector<std::size_t> wholeRow_;  // of each group
-  std::vector<Witness> whole_;         // what its bodies are at, once placed
+  std::vector<int> groupOf_;           // for each pair: its group, -1 for none
+  std::vector<std::size_t> wholeRow_;  // for each group: the row of its whole bodies
+  std::vector<Witness> whole_;         // for each group: the last answer of its whole bodies
   std::vector<CommonMotion> common_;
   std::vector<Term> terms_;
-  std::vector<int> placed_;      // the robot's bodies that rows have
-  Kinematics::Subtree placing_;  // their links
+  std::vector<int> placed_;      // the robot's bodies that occur in rows
+  Kinematics::Subtree placing_;  // the links of these bodies
   Kinematics::State state_;
   Kinematics::Rate rate_;
   std::vector<Eigen::Isometry3d> pose_;  // of each body, then of each obstacle
-  std::vector<Eigen::Vector3d> centre_;  // of their spheres
+  std::vector<Eigen::Vector3d> centre_;  // of the bounding spheres of these
   std::vector<PairCache> caches_;
-  std::vector<Distance> found_;          // of pairs of STP-BVs
-  std::vector<DistanceAnswer> answers_;  // of the other pairs
-  std::vector<DistanceRate> moves_;      // of normal and points, at the last velocity
-  bool moving_ = false;                  // whether the last evaluation had one
+  std::vector<Distance> found_;          // answers of pairs of STP-BVs
+  std::vector<DistanceAnswer> answers_;  // answers of the other pairs
+  std::vector<DistanceRate> moves_;      // velocities of normal and points, at the last velocity of q
+  bool moving_ = false;                  // whether the last evaluation had a velocity
   Eigen::VectorXd values_, change_, otherChange_, moved_, axis_;
-  std::vector<Kinematics::Rate> alongEach_;  // at a unit velocity of each coordinate, for hessian()
-  SparseHessian structure_;                  // that hessian() fills, without values
-  // Of one row's coordinates: what each does to both bodies, as DistanceHessian takes it; that matrix times
-  // it; the row's Hessian.
+  std::vector<Kinematics::Rate> alongEach_;  // rates at a unit velocity of each coordinate, for hessian()
+  SparseHessian structure_;                  // structure of hessian()'s matrix, without values
+  // For one row. `twists_`: the twists of both bodies for each coordinate of the row, as DistanceHessian
+  // takes them. `pushes_`: DistanceHessian's matrix times `twists_`. `square_`: the row's Hessian.
   Eigen::Matrix<double, 12, Eigen::Dynamic> twists_, pushes_;
   Eigen::MatrixXd square_;
-  std::vector<char> open_;  // rows whose change is left to differences
+  std::vector<char> open_;  // rows whose change is computed by central differences
 };
 
 }  // namespace fcl_stpbv

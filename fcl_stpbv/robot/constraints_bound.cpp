@@ -23,7 +23,8 @@ struct Roundness {
   double least, most;
 };
 
-/// Those of a polyhedron are 0 and infinite: its ways to turn are all or nothing, and do not enter `skew`.
+/// For a polyhedron they are 0 and infinite. Its normal cannot turn at all or turns freely along a direction,
+/// so it does not enter `skew`.
 bool roundnessOf(const fcl::CollisionGeometryd& geometry, Roundness& result) {
   if (const StpBvGeometry* smooth = asStpBv(&geometry)) {
     result = {smooth->volume().radii().r, smooth->volume().radii().R};
@@ -95,7 +96,8 @@ double CollisionConstraints::gradientRateBound(int row) const {
   double slope, curvature;
   bend(at(row), w.distance, slope, curvature);
   if (slope == 0 && curvature == 0) return 0;
-  if (w.status == DistanceStatus::invalid) return kInfinity;  // not far away: it cannot be measured
+  // A pair with a slope is not far away, so its distance cannot be measured.
+  if (w.status == DistanceStatus::invalid) return kInfinity;
   std::array<Roundness, 2> round;
   if (!roundnessOf(*geometry_->bodies[at(r.a)].geometry, round[0]) ||
       !roundnessOf(second(pairs_[at(row)]), round[1]))
@@ -107,14 +109,15 @@ double CollisionConstraints::gradientRateBound(int row) const {
   const Vector3d& n = w.normal;
   const Slides slides = slidesOf(w.distance, n, w.point, round, both, first, other);
   const double speed = n.dot(velocityOf(w.point[1], other) - velocityOf(w.point[0], first));
-  double sum = 0, shared = 0;  // joints may share a coordinate: those stand side by side
+  double sum = 0, shared = 0;  // joints that share a coordinate are neighbours in the list of terms
   for (int t = r.firstTerm; t < r.lastTerm; ++t) {
     const Term& term = terms_[at(t)];
     const Vector3d& x = w.point[at(term.side)];
     const Twist &motion = state_.motion[at(term.motion)], &change = rate_.motion[at(term.motion)];
     const Twist& body = term.side == 0 ? first : other;
     const Vector3d lever = velocityOf(x, motion);
-    // The joint's own part: how n sees the velocity change that the joint gives to the material point at x.
+    // The part of the joint itself: the velocity change along n that the joint gives to the material point at
+    // x.
     const double own = std::abs(n.dot(velocityOf(x, change) + motion.angular.cross(velocityOf(x, body))));
     const double entry =
         slope * (slides.turn * lever.norm() + motion.angular.norm() * slides.slide[term.side] + own) +

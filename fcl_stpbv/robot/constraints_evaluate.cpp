@@ -33,7 +33,7 @@ void CollisionConstraints::requireSizes(const ConstVector& q, const ConstVector&
   requireSize(kOwner, "drift", rates.drift.size(), rows());
 }
 
-// Which entries it has takes too long to compare at every configuration.
+// Checks only sizes and counts. To compare all indices would take too long at every configuration.
 void CollisionConstraints::requireStructure(const SparseJacobian& jacobian) const {
   if (jacobian.rows() != rows() || jacobian.cols() != columns() || jacobian.nonZeros() != nonZeros() ||
       !jacobian.isCompressed())

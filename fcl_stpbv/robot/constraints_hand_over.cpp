@@ -21,10 +21,11 @@ struct Bent {
   double value, slope, curvature;
 };
 
-// What a distance that levels off from `start` to `end` is from there on.
+// The constant value from `end` on of a distance that levels off from `start` to `end`.
 double levelAt(double start, double end) { return (start + end) / 2; }
 
-// The distance itself up to `start`, constant from `end` on; its slope falls as a cubic, so it is C2.
+// The distance itself up to `start`, constant from `end` on. The slope falls as a cubic in between, so the
+// function is C2.
 Bent levelOff(double d, double start, double end) {
   if (!(d > start)) return {d, 1, 0};
   if (d >= end) return {levelAt(start, end), 0, 0};

@@ -16,7 +16,8 @@ using Eigen::Vector3d;
 
 }  // namespace
 
-// Finite, and so small that products of two or three with lengths and curvatures stay finite.
+// Whether all numbers are finite and so small that products of two or three with lengths and curvatures stay
+// finite.
 bool CollisionConstraints::isUsable(const ConstVector& numbers) {
   return (numbers.array().abs() <= 1e100).all();
 }
@@ -26,7 +27,7 @@ void CollisionConstraints::bodyVelocities(std::size_t row, Twist& first, Twist& 
   second = pairs_[row].obstacle ? Twist{} : rate_.link[at(geometry_->bodies[at(rows_[row].b)].link)];
 }
 
-// Fills moves_[row] for the velocities in rate_; false where they are left to differences.
+// Fills moves_[row] for the velocities in rate_. @returns false if the row must use central differences.
 bool CollisionConstraints::move(std::size_t row) {
   const Row& r = rows_[row];
   const Eigen::Isometry3d &pose1 = pose_[at(r.a)], &pose2 = pose_[at(r.b)];
@@ -45,8 +46,8 @@ RowRates CollisionConstraints::makeRates() const {
   return {zeros, zeros, zeros};
 }
 
-// The distance's speed is n.(u2 - u1), u the velocities of the witness points as fixed to their bodies; its
-// drift is that sum's derivative while q goes on at qd.
+// The distance's speed is n.(u2 - u1), where u are the velocities of the body-fixed points at the witness
+// points. The drift is the derivative of this product while q keeps its velocity qd.
 bool CollisionConstraints::rateRow(std::size_t row, RowRates& rates, double* values) {
   const Eigen::Index i = static_cast<Eigen::Index>(row);
   const Witness witness = ask(row);
@@ -151,10 +152,10 @@ bool CollisionConstraints::rowChange(std::size_t row, double* change) {
   return true;
 }
 
-// Fills the open rows' part of change_, and of moves_, along v. Their
-// answers are those at q again afterwards.
+// Fills the open rows' part of change_ and of moves_, along v, by central differences. Afterwards the rows'
+// answers are those at q again.
 void CollisionConstraints::differences(const ConstVector& q, const ConstVector& v) {
-  // Rounding in J divided by the step and what the step misses of a region boundary are then about equal.
+  // With this step the rounding of J divided by the step is about as large as the error at a region boundary.
   constexpr double kStep = 1e-6;
   const double length = v.norm();
   const double step = length > 0 ? kStep / length : 0;
@@ -201,7 +202,7 @@ bool CollisionConstraints::hessianVector(const ConstVector& q, const ConstVector
   if (!q.allFinite() || !isUsable(weights) || !isUsable(v)) return false;
   place(q);
   kinematics_->differentiate(q, v, state_, rate_, placing_);
-  moving_ = false;  // v is a direction, and what rate_ holds is of it
+  moving_ = false;  // v is a direction, and so are the velocities in rate_
   std::fill(open_.begin(), open_.end(), 1);
   for (std::size_t row = 0; row < pairs_.size(); ++row) open_[row] = !rowChange(row, change_.data());
   if (std::find(open_.begin(), open_.end(), 1) != open_.end()) differences(q, v);

@@ -49,7 +49,7 @@ void CollisionConstraints::makeRoomForHessian() {
   structure_ = makeHessian();
 }
 
-// Poses, and how every motion changes as each coordinate moves.
+// Computes the poses, and how every motion changes as each coordinate moves.
 void CollisionConstraints::prepareHessian(const ConstVector& q) {
   makeRoomForHessian();
   place(q);
@@ -136,12 +136,12 @@ bool CollisionConstraints::rowHessian(std::size_t row) {
     h *= slope;
     h.noalias() += curvature * g * g.transpose();
   }
-  for (int j = 0; j < count; ++j)  // symmetric to the last bit
+  for (int j = 0; j < count; ++j)  // make it symmetric to the last bit
     for (int i = 0; i < j; ++i) h(i, j) = h(j, i) = (h(i, j) + h(j, i)) / 2;
   return true;
 }
 
-// Hands add(i, j, value, row) the open rows' entries, half of each from either side of the diagonal.
+// Calls add(i, j, value, row) for the open rows' entries, with half of each from either side of the diagonal.
 template <class Add>
 void CollisionConstraints::openHessians(const ConstVector& q, const Add& add) {
   if (std::find(open_.begin(), open_.end(), 1) == open_.end()) return;
@@ -173,7 +173,7 @@ bool CollisionConstraints::hessian(const ConstVector& q, const ConstVector& weig
     if (weight == 0 || open_[row]) continue;
     const int start = rowStart_[row], count = rowStart_[row + 1] - start;
     for (int j = 0; j < count; ++j) {
-      // The row's columns ascend as the entries of a column of `lower` do, which hold them all.
+      // The row's columns ascend, and so do the entries of a column of `lower`, which contains all of them.
       int place = lower.outerIndexPtr()[column_[at(start + j)]];
       for (int i = j; i < count; ++i) {
         while (lower.innerIndexPtr()[place] != column_[at(start + i)]) ++place;

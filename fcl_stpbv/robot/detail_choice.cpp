@@ -1,9 +1,11 @@
 // A greedy choice from coarse to fine.
-// 1. Details in turn, coarse first: finer levels, then 2, 4 and 8 parts. The first with
-//    which one finer link alone meets some need is given to the link that meets the most
-//    needs so. Again, until no link helps alone.
-// 2. The first need that two finer links meet together gets them, with the fewest rows. On with 1.
-// 3. What is left is not met by the finest bodies.
+// 1. Try the details in turn, coarse first: finer levels, then 2, 4 and 8 parts. Take the first detail with
+// which
+//    one finer link alone meets some need. Give it to the link that meets the most needs with it. Repeat
+//    until no
+//    single link helps.
+// 2. Give the first need that two finer links meet together the details with the fewest rows. Go on with 1.
+// 3. The remaining needs are not met by the finest bodies.
 // A pair uses convex parts only if a need of that pair requires them.
 #include "fcl_stpbv/robot/detail_choice.h"
 
@@ -31,7 +33,8 @@ bool samePrimitive(const Body& a, const Body& b) {
          x.size == y.size;
 }
 
-// The same mesh or primitive at the same place: levels differ in how it is covered.
+// Whether two bodies are the same mesh or primitive at the same place. Levels may differ only in how it is
+// covered.
 bool sameShape(const Body& a, const Body& b) {
   return a.link == b.link && a.pose.matrix() == b.pose.matrix() && a.file == b.file && a.scale == b.scale &&
          (!a.file.empty() || samePrimitive(a, b));
@@ -78,7 +81,7 @@ DetailChoice::Details DetailChoice::detailsOf(const LinkPair& pair) const {
   return {std::min(detailOf(pair.link1), most), pair.obstacle ? 0 : std::min(detailOf(pair.link2), most)};
 }
 
-// What a pair has when one of its links is as fine as `detail`: by parts both links are.
+// The details of a pair after one of its links became as fine as `detail`. With parts, both links get them.
 DetailChoice::Details DetailChoice::raised(const LinkPair& pair, int link, Detail detail) const {
   Details details = detailsOf(pair);
   if (detail >= levels()) details = {detailOf(pair.link1), pair.obstacle ? 0 : detailOf(pair.link2)};
@@ -111,7 +114,7 @@ bool DetailChoice::meets(const SceneNeed& need, Details details) {
                          const Eigen::Isometry3d& pose) {
     const DistanceAnswer found = fcl_stpbv::distance(*a.geometry, poseOf(a), geometry, pose);
     return found.status != DistanceStatus::invalid &&
-           found.distance > need.clearance;  // else nothing is known
+           found.distance > need.clearance;  // without a valid answer, nothing is known
   };
   for (const Body* a : bodiesOf(need.pair.link1, details.first)) {
     if (need.pair.obstacle) {
@@ -156,7 +159,7 @@ bool DetailChoice::mayMeet(OpenNeed& open, Details details) {
 void DetailChoice::raise(int link, Detail detail) {
   Detail& now = detail_[link];
   if (now >= detail) return;
-  const bool wholeToo = now + 1 < levels();  // the whole body becomes another
+  const bool wholeToo = now + 1 < levels();  // whether the whole body also becomes another one
   now = detail;
   for (const LinkPair& pair : byParts_)
     if (pair.link1 == link || (!pair.obstacle && pair.link2 == link)) changed_.insert(pair);
@@ -173,7 +176,8 @@ void DetailChoice::take(const LinkPair& pair, Details details) {
   if (!pair.obstacle) raise(pair.link2, details.second);
 }
 
-// Makes the one link as fine as `detail` that meets the most needs so; false where none meets any.
+// Makes the one link as fine as `detail` that meets the most needs with it. @returns false if no link meets
+// any.
 bool DetailChoice::refineOneLink(std::vector<OpenNeed>& open, Detail detail) {
   std::vector<std::pair<bool, bool>> met(open.size());
   const auto tries = [&](OpenNeed& o, int link) {
@@ -184,7 +188,7 @@ bool DetailChoice::refineOneLink(std::vector<OpenNeed>& open, Detail detail) {
     const LinkPair& pair = open[i].need.pair;
     met[i] = {tries(open[i], pair.link1), !pair.obstacle && tries(open[i], pair.link2)};
   });
-  std::map<int, int> needs;  // met, by link
+  std::map<int, int> needs;  // number of needs met, by link
   for (std::size_t i = 0; i < open.size(); ++i) {
     if (met[i].first) ++needs[open[i].need.pair.link1];
     if (met[i].second) ++needs[open[i].need.pair.link2];
@@ -201,7 +205,8 @@ bool DetailChoice::refineOneLink(std::vector<OpenNeed>& open, Detail detail) {
   return true;
 }
 
-// The fewest rows that meet a need by finer bodies of both links; false where the finest do not.
+// Takes the details of both links that meet a need with the fewest rows. @returns false if the finest do not
+// meet it.
 bool DetailChoice::refineBothLinks(OpenNeed& open) {
   const LinkPair& pair = open.need.pair;
   const Details now{detailOf(pair.link1), pair.obstacle ? 0 : detailOf(pair.link2)};
@@ -223,7 +228,7 @@ bool DetailChoice::refineBothLinks(OpenNeed& open) {
 }
 
 // A finer body need not lie within the coarse one, so all needs are checked again at the end. The exact
-// shapes are used only if whole bodies meet, because bodies take a tenth of the time.
+// shapes are queried only if whole bodies meet, because bodies take a tenth of the time.
 std::set<LinkPair> DetailChoice::refine(const std::vector<SceneNeed>& needs) {
   changed_.clear();
   std::vector<char> hopeless(needs.size());
@@ -249,7 +254,7 @@ std::set<LinkPair> DetailChoice::refine(const std::vector<SceneNeed>& needs) {
       if (options_.progress) options_.progress(all - open.size(), all, "needs that whole bodies do not meet");
       bool finer = false;
       for (std::size_t k = 0; !finer && k < ladder_.size(); ++k) finer = refineOneLink(open, ladder_[k]);
-      while (!finer && !open.empty() && !refineBothLinks(open.front())) {  // nothing meets it
+      while (!finer && !open.empty() && !refineBothLinks(open.front())) {  // no detail meets the need
         hopeless[open.front().index] = 1;
         open.erase(open.begin());
       }
@@ -274,7 +279,7 @@ std::shared_ptr<const RobotGeometry> DetailChoice::geometry() {
   for (const auto& [link, detail] : detail_)
     if (mostParts(detail) > 1) most[link] = mostParts(detail);
   RobotGeometry all = parts_.geometry(most, byParts_);
-  int whole = 0;  // index at every level
+  int whole = 0;  // index of the whole body, which is the same at every level
   for (Body& body : all.bodies) {
     if (body.partOf >= 0) continue;
     const int parts = body.parts;

@@ -41,7 +41,7 @@ class DetailChoice {
   std::shared_ptr<const RobotGeometry> geometry();
 
  private:
-  using Detail = int;  // a level, or after the last of them 2, 3, 4 ... parts at most
+  using Detail = int;  // a level; numbers after the last level: at most 2, 3, 4 ... parts
   using Details = std::pair<Detail, Detail>;
   struct OpenNeed {
     SceneNeed need;
@@ -71,10 +71,10 @@ class DetailChoice {
   LinkParts parts_;
   OwnShapes ownShapes_;
   SceneModelOptions options_;
-  std::map<int, Detail> detail_;  // by link, where above 0
-  std::set<LinkPair> byParts_;    // as RobotGeometry's
-  std::set<LinkPair> changed_;    // since refine() began
-  std::vector<Detail> ladder_;    // that refine() tries
+  std::map<int, Detail> detail_;  // by link, if above 0
+  std::set<LinkPair> byParts_;    // RobotGeometry::byParts
+  std::set<LinkPair> changed_;    // pairs changed since refine() began
+  std::vector<Detail> ladder_;    // the details that refine() tries
 };
 
 }  // namespace fcl_stpbv::detail

@@ -12,11 +12,12 @@ namespace fcl_stpbv::detail {
 BodySize sizeOf(const std::vector<Eigen::Vector3d>& points) {
   BodySize size;
   size.ball = StpBv::smallestR(points, 0);
-  // The smallest width is how deep the hull is in itself: the shortest way out of its difference with itself.
+  // The smallest width is the penetration depth of the hull in itself: the shortest way out of its difference
+  // with itself.
   const auto hull = hullGeometry(points);
   const DistanceAnswer self =
       distance(*hull, fcl::Transform3d::Identity(), *hull, fcl::Transform3d::Identity());
-  size.width = std::min(std::max(0.0, -self.upper), 2 * size.ball);  // 0 without a sign, of one point
+  size.width = std::min(std::max(0.0, -self.upper), 2 * size.ball);  // 0 instead of -0 for a single point
   return size;
 }
 
@@ -26,8 +27,9 @@ StpBvOptions fittedRadii(const BodySize& size) {
   return {r, fittedR(size.ball, r)};
 }
 
-// Where the surface is highest over the hull, a big ball of radius rho = R - r touches points of a ball of
-// radius b: its centre is at least sqrt(rho^2 - b^2) from their hull, so the surface at most r + rho - that.
+// Where the surface is highest over the hull, a big ball of radius rho = R - r touches points within a ball
+// of radius b. The big ball's centre is at least sqrt(rho^2 - b^2) from the hull of these points. So the
+// surface is at most r + rho - sqrt(rho^2 - b^2) over it.
 double fittedR(double ball, double r) {
   constexpr double kBall = 1.0 / 200;
   const double bulge = std::max(r, kBall * ball);

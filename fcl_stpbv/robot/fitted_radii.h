@@ -16,9 +16,9 @@ struct BodySize {
   double ball = 0;  ///< radius of the smallest ball around the body
 };
 
-/// Of a cloud's convex hull. The width is a lower bound with a relative error of at most 1e-6 for hulls of up
-/// to some hundred vertices. For finer round hulls the error depends on how far EPA got. @throws Error for a
-/// cloud that is empty or not finite.
+/// The size of a cloud's convex hull. The width is a lower bound with a relative error of at most 1e-6 for
+/// hulls of up to some hundred vertices. For finer round hulls the error depends on how far EPA got. @throws
+/// Error for a cloud that is empty or not finite.
 BodySize sizeOf(const std::vector<Eigen::Vector3d>& points);
 
 /// r is 1/20 of the width, but at most 1 cm (the paper's value), and at least 1/250 of the ball's radius, so

@@ -1,6 +1,6 @@
-// A continuous joint that others mimic: its range is as many turns as bring all followers back to where they
-// were, the least common multiple of each one's, and where prismatic joints follow, what the limits of all of
-// these allow.
+// Computes the range of a continuous joint that others mimic. Its range is the number of turns after which
+// all followers are back where they were: the least common multiple of their numbers of turns. If prismatic
+// joints follow, the range is what the limits of all of these allow.
 #include "fcl_stpbv/robot/followed_range.h"
 
 #include <algorithm>
@@ -14,10 +14,11 @@
 namespace fcl_stpbv::detail {
 namespace {
 
-// Of how many turns of the leader a joint that follows it at `ratio` comes back; 0 for too many.
+// Number of the leader's turns after which a joint that follows it at `ratio` is back where it was; 0 if
+// there are too many.
 int turnsOf(double ratio) {
   constexpr int kMostTurns = 64;
-  constexpr double kOff = 1e-5;  // what decimals such as 0.333333 are off by
+  constexpr double kOff = 1e-5;  // tolerance for decimals such as 0.333333
   for (int turns = 1; turns <= kMostTurns; ++turns) {
     const double whole = std::round(turns * ratio);
     if (whole != 0 && std::abs(turns * ratio - whole) <= kOff) return turns;
@@ -29,9 +30,9 @@ int turnsOf(double ratio) {
 
 void widenFollowed(std::vector<JointModel>& joints) {
   struct Leader {
-    long turns = 1;  // 0 for any number
+    long turns = 1;  // 0: no common number of turns
     bool slides = false;
-    double low = -kInfinity, high = kInfinity;  // of what all allow that slide
+    double low = -kInfinity, high = kInfinity;  // range that all prismatic followers allow
   };
   std::map<int, Leader> leaders;
   for (const JointModel& follower : joints) {
@@ -40,7 +41,7 @@ void widenFollowed(std::vector<JointModel>& joints) {
     Leader& leader = leaders[follower.mimic->joint];
     const auto [ratio, offset] = std::pair(follower.mimic->multiplier, follower.mimic->offset);
     if (follower.type == JointType::prismatic) {
-      if (follower.lower == follower.upper) continue;  // left out, or not known
+      if (follower.lower == follower.upper) continue;  // the joint is left out, or its limits are not known
       const auto [low, high] =
           std::minmax({(follower.lower - offset) / ratio, (follower.upper - offset) / ratio});
       leader.slides = true;

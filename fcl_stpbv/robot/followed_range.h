@@ -13,8 +13,8 @@ constexpr double kLargestValue = 1e6;
 
 /// Widens the limits of a continuous joint to the whole range of the joints that mimic it. Half a turn in
 /// both directions is the full range of the joint itself, but not of a joint that follows with another
-/// multiplier. A wheel with multiplier 1/2 needs two turns of the leader. Where prismatic joints follow, the
-/// leader goes as far as the limits of all of these allow, and no farther for what else follows.
+/// multiplier. A wheel with multiplier 1/2 needs two turns of the leader. If prismatic joints follow, the
+/// leader goes as far as the limits of all of these allow, and not farther for other followers.
 void widenFollowed(std::vector<JointModel>& joints);
 
 }  // namespace fcl_stpbv::detail

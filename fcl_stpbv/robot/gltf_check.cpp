@@ -18,8 +18,8 @@ namespace {
 constexpr std::size_t kByte = 5121, kShort = 5123, kInt = 5125, kFloat = 5126;
 constexpr std::size_t kLargestMode = 6, kTriangleList = 4;
 
-// assimp makes its matrix from a quaternion as it is: one whose length is off by this stretches the body by
-// 0.002 %. Quaternions with six digits keep it.
+// Tolerance for the length of a quaternion, because assimp makes its matrix without normalising it. Such an
+// error stretches the body by 0.002 %. Quaternions with six digits keep the tolerance.
 constexpr double kUnit = 1e-5;
 
 // Extensions that change no vertex, besides KHR_materials_...
@@ -76,7 +76,7 @@ class GltfCheck {
     }
   }
 
-  // assimp keeps the shape that a mesh has with all weights at 0.
+  // assimp uses the mesh's shape with all weights at 0.
   void checkWeights(const GltfItem& item) const {
     for (const GltfItem& weight : values_.list(item, "weights"))
       if (!weight.value->is_number() || weight.value->get<double>() != 0)
@@ -100,7 +100,7 @@ class GltfCheck {
     const std::size_t mode = values_.whole(primitive, "mode", kTriangleList);
     if (mode > kLargestMode) values_.damaged(primitive, "must have a mode from 0 to 6");
     const std::optional<GltfItem> indices = values_.find(primitive, "indices");
-    if (!indices) return;  // a triangle that is not whole has its vertices counted all the same
+    if (!indices) return;  // without indices, vertices of an incomplete triangle are counted too
     const GltfItem accessor = values_.at("accessors", values_.whole(*indices));
     checkIndices(accessor, vertices, positions.place);
     const std::size_t corners = values_.whole(accessor, "count");
@@ -134,7 +134,7 @@ class GltfCheck {
                                       ", which has " + std::to_string(vertices) + ", the first being 0");
   }
 
-  // Of what the rest only looks up.
+  // Checks the keys of objects that the other checks only look up.
   void checkKeys() const {
     requireKeys({&root_, "the document"},
                 {"accessors", "animations", "asset", "buffers", "bufferViews", "cameras", "images",
@@ -151,7 +151,7 @@ class GltfCheck {
   // With a misspelt key, a body would be missing, be at a wrong place, or have the data of another one.
   void requireKeys(const GltfItem& item, const Words& keys) const {
     constexpr Words kAnywhere{"extensions", "extras", "name"};
-    if (!item.value->is_object()) return;  // its reader refuses it
+    if (!item.value->is_object()) return;  // the object's reader refuses it
     for (const auto& [key, ignored] : item.value->items())
       if (!holds(keys, key) && !holds(kAnywhere, key))
         values_.refuse(item, "has '" + key + "', which is nothing that glTF knows there");
@@ -178,7 +178,7 @@ class GltfCheck {
     }
   }
 
-  // assimp leaves out the last row of a matrix; written row by row, that would be its translation.
+  // assimp leaves out the last row of a matrix. In a matrix written row by row, that row has the translation.
   void checkMatrix(const GltfItem& matrix) const {
     const std::vector<double> m = values_.numbers(matrix, 16);
     if (!(m[3] == 0 && m[7] == 0 && m[11] == 0 && m[15] == 1))

@@ -21,7 +21,7 @@ std::size_t littleEndian(std::string_view bytes, std::size_t at) {
   return value;
 }
 
-// The chunk that begins at a place, and moves that on to the next one.
+// Returns the chunk that begins at `at`, and moves `at` to the next chunk.
 std::string_view takeChunk(std::string_view text, std::size_t& at, std::string_view kind,
                            const std::string& name) {
   const std::string ending = "; the file is damaged, export it again";
@@ -71,7 +71,7 @@ GltfText splitGltf(std::string_view text, const std::string& name) {
   }
   if (text.size() < kHead || littleEndian(text, 4) != 2)
     throw Error(name + ": is no GLB of version 2, the one that is read; export it as glTF 2.0");
-  // The head's length, not the file's, tells assimp whether there are bytes.
+  // assimp decides by the length in the head, not by the file's length, whether there are bytes.
   const std::size_t length = std::min(text.size(), littleEndian(text, 8));
   std::size_t at = kHead;
   GltfText parts{takeChunk(text, at, "JSON", name), {}};
@@ -114,7 +114,7 @@ std::string GltfBuffers::read(const std::string& place, const std::string& uri) 
     std::replace(path.begin(), path.end(), '\\', '/');
     for (const std::string& name : {uri, path})
       if (std::optional<std::string> part = readPart_(name)) return std::move(*part);
-    const bool alone = lowerExtension(name_) != ".gltf";  // ReadableFiles
+    const bool alone = lowerExtension(name_) != ".gltf";  // ReadableFiles allows other files only for .gltf
     throw Error(place + "is in a file '" + uri +
                 (alone
                      ? "', which only a .gltf may have; export the mesh as one .glb, or as .gltf with a .bin"

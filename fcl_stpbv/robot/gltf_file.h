@@ -10,7 +10,8 @@
 
 namespace fcl_stpbv::detail {
 
-/// Reads a file that a mesh names, by its path relative to the mesh; nothing where it may not or cannot.
+/// Reads a file that a mesh names, by its path relative to the mesh. No value if the file may not or cannot
+/// be read.
 using ReadPart = std::function<std::optional<std::string>(const std::string& path)>;
 
 struct GltfText {
@@ -18,19 +19,19 @@ struct GltfText {
   std::optional<std::string_view> chunk;  // a GLB's own bytes
 };
 
-/// Takes a glTF or GLB apart. @throws Error where it is neither or is cut off.
+/// Takes a glTF or GLB apart. @throws Error if the text is neither or is cut off.
 GltfText splitGltf(std::string_view text, const std::string& name);
 
-/// The buffers of a document, each read when it is first asked for.
+/// The buffers of a document. Each is read when it is first requested.
 class GltfBuffers {
  public:
-  /// All but `chunk` must outlive this, and what `chunk` refers to.
+  /// All arguments except `chunk` must outlive this object, and so must the bytes that `chunk` refers to.
   GltfBuffers(const nlohmann::json& document, const GltfText& text, const ReadPart& readPart,
               const std::string& name)
       : document_(document), chunk_(text.chunk), readPart_(readPart), name_(name) {}
 
-  /// The first `byteLength` bytes of a buffer, which is all that others may use of it.
-  /// @throws Error where it does not exist, is shorter, or its bytes cannot be had.
+  /// The first `byteLength` bytes of a buffer. Views may not use other bytes of it. @throws Error if the
+  /// buffer does not exist, is shorter, or cannot be read.
   std::string_view bytes(std::size_t index);
 
  private:

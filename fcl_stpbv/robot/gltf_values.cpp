@@ -10,7 +10,7 @@
 namespace fcl_stpbv::detail {
 namespace {
 
-// assimp's own bound. With it no sum or product here leaves 64 bits.
+// The bound that assimp has too. With it no sum or product here exceeds 64 bits.
 constexpr std::size_t kMostWhole = 4294967295u;
 
 std::string indexed(const std::string& place, std::size_t i) { return place + "[" + std::to_string(i) + "]"; }
@@ -97,7 +97,8 @@ GltfElements GltfValues::elements(const GltfItem& accessor, std::size_t size) {
     all = elements(accessor, whole(*view), size, whole(accessor, "count"));
   else if (!sparse)
     refuse(accessor, "has no bufferView, so no values; export the mesh again");
-  // assimp steps through the packed copy that it makes for a sparse accessor as through the view.
+  // assimp copies the elements of a sparse accessor packed, but steps through the copy with the view's
+  // byteStride.
   if (sparse && view && all.stride != size)
     refuse(*sparse, "with a byteStride is not read; export the mesh without sparse accessors");
   return all;

@@ -17,7 +17,7 @@ struct GltfItem {
   std::string place;
 };
 
-/// The elements of an accessor: `count` times `size` bytes, the next one `stride` bytes on.
+/// The elements of an accessor: `count` elements of `size` bytes each, at distances of `stride` bytes.
 struct GltfElements {
   std::string_view bytes;
   std::size_t count = 0, size = 0, stride = 0;
@@ -28,23 +28,23 @@ struct GltfElements {
 
 class GltfValues {
  public:
-  /// All must outlive this.
+  /// All arguments must outlive this object.
   GltfValues(const nlohmann::json& root, GltfBuffers& buffers, const std::string& name)
       : root_(root), buffers_(buffers), name_(name) {}
 
   [[noreturn]] void refuse(const GltfItem& item, const std::string& message) const;
 
-  /// The same, for a fault that only the author of the file can correct.
+  /// Throws like refuse(), for a fault that only the author of the file can correct.
   [[noreturn]] void damaged(const GltfItem& item, const std::string& message) const;
 
-  /// A list of the document, none where it is missing, and one of its items.
+  /// A list of the document (empty if it is missing), and one of its items.
   std::vector<GltfItem> list(const char* key) const;
   GltfItem at(const char* key, std::size_t index) const;
 
   /// The items of a list within an item.
   std::vector<GltfItem> list(const GltfItem& item, const char* key) const;
 
-  /// A member, or nothing.
+  /// A member of an item; no value if it is missing.
   std::optional<GltfItem> find(const GltfItem& item, const char* key) const;
 
   /// A non-negative integer; assimp treats any other value as missing.
@@ -52,10 +52,11 @@ class GltfValues {
   std::size_t whole(const GltfItem& item, const char* key) const;
   std::size_t whole(const GltfItem& item, const char* key, std::size_t missing) const;
 
-  /// The numbers of a list, as many as it must have.
+  /// The numbers of a list, which must have exactly `count` of them.
   std::vector<double> numbers(const GltfItem& item, std::size_t count) const;
 
-  /// The elements of an accessor with elements of `size` bytes, those of its buffer view if it is sparse.
+  /// The elements of an accessor whose elements have `size` bytes. For a sparse accessor, the elements of its
+  /// buffer view.
   GltfElements elements(const GltfItem& accessor, std::size_t size);
 
  private:

@@ -9,7 +9,7 @@
 
 namespace fcl_stpbv::detail {
 
-/// Of its own, were it to mimic no other: 0, 1, 3 or 6.
+/// Number of coordinates of a joint that mimics no other joint: 0, 1, 3 or 6.
 inline int freedoms(JointType type) {
   switch (type) {
     case JointType::fixed:
@@ -23,8 +23,8 @@ inline int freedoms(JointType type) {
   }
 }
 
-/// The plane a planar joint moves in: the frame whose z axis is the joint's, turned from the link's frame by
-/// the smallest angle. Its x and y axes are the first two columns.
+/// The frame of the plane in which a planar joint moves: its z axis is the joint's axis, and it is turned
+/// from the link's frame by the smallest angle. The x and y axes of the plane are the first two columns.
 inline Eigen::Matrix3d planeAcross(const Eigen::Vector3d& axis) {
   const Eigen::Vector3d across = Eigen::Vector3d::UnitZ().cross(axis);
   const Eigen::Vector3d turn =

@@ -9,7 +9,8 @@
 
 namespace fcl_stpbv::detail {
 
-/// Of all coordinates, then of the moving joints that have another name or follow another joint.
+/// The names of all coordinates, then the names of moving joints that have another name or follow another
+/// joint.
 inline std::vector<std::string> valueNames(const Kinematics& kinematics) {
   std::vector<std::string> names = kinematics.names();
   for (const JointModel& joint : kinematics.robot().joints)

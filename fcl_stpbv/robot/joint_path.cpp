@@ -1,4 +1,4 @@
-// The joints between two links: both chains up to the root without their common part.
+// Finds the joints between two links: the chains of both links up to the root, without their common part.
 #include "fcl_stpbv/robot/joint_path.h"
 
 namespace fcl_stpbv::detail {

@@ -8,8 +8,8 @@
 
 namespace fcl_stpbv::detail {
 
-/// Joints from one link up to where the ways to the root meet, then down to the
-/// other one. Fixed joints are among them.
+/// The joints from one link up to where the ways to the root meet, then down to the other link. Fixed joints
+/// are included.
 struct JointPath {
   std::vector<int> joints;
   std::size_t up =

@@ -11,7 +11,7 @@ namespace fcl_stpbv::detail {
 
 nlohmann::json parseJson(const std::string& text, const std::string& name) {
   using nlohmann::json;
-  std::vector<std::set<std::string>> keys;  // of the objects that are open
+  std::vector<std::set<std::string>> keys;  // keys of the objects that are open
   const auto checkKeys = [&](int, json::parse_event_t event, json& parsed) {
     if (event == json::parse_event_t::object_start) keys.emplace_back();
     if (event == json::parse_event_t::object_end) keys.pop_back();

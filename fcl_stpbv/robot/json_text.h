@@ -6,8 +6,8 @@
 
 namespace fcl_stpbv::detail {
 
-/// Parses a text; `name` stands for it in messages. Refused: what is no JSON,
-/// and an object that has a key twice.
+/// Parses a text; `name` stands for it in messages. A text that is not JSON is refused, and so is an object
+/// with the same key twice.
 /// @throws Error naming the file.
 nlohmann::json parseJson(const std::string& text, const std::string& name);
 

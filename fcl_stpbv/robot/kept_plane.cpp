@@ -1,5 +1,5 @@
-// The stored directions turn with the bodies. Their difference from opposite directions now bounds how much
-// the gap has shrunk.
+// The stored directions turn with the bodies. When they were stored, they were opposite. The length of their
+// sum now bounds how much the gap has shrunk.
 #include "fcl_stpbv/robot/kept_plane.h"
 
 #include <algorithm>

@@ -9,21 +9,21 @@ namespace fcl_stpbv::detail {
 
 /// A plane, stored in the frames of both bodies.
 struct KeptPlane {
-  Packed outward[2];  ///< unit, in each body's frame
-  double height;      ///< of both supporting planes over the spheres' centres, summed (m)
-  Packed touching;    ///< where the second body touches its plane, from its centre, in its frame (m)
+  Packed outward[2];  ///< outward unit normal of each body, in its own frame
+  double height;      ///< sum of the heights of both supporting planes over the spheres' centres (m)
+  Packed touching;    ///< where the second body touches its plane, relative to its centre, in its frame (m)
 };
 
-/// It is a struct because Packed alone, as a template argument, would lose its alignment.
+/// A struct, because Packed alone as a template argument would lose its alignment.
 struct SphereCentre {
-  Packed at;  ///< in the world, and a 1
+  Packed at;  ///< position in the world; the fourth number is 1
 };
 
 inline Packed turned(const Eigen::Isometry3d& frame, const Packed& v) {
   return v[0] * column(frame, 0) + v[1] * column(frame, 1) + v[2] * column(frame, 2);
 }
 
-/// How far the bodies have turned against each other since a plane was kept (rad, squared).
+/// Square of how far the bodies have turned relative to each other since a plane was stored (rad^2).
 double turnSince(const KeptPlane& plane, const Eigen::Isometry3d& frameA, const Eigen::Isometry3d& frameB);
 
 /// Lower bound on the gap along a cached plane at the present poses (m). `radius`: radius of the second

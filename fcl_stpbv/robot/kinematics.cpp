@@ -57,7 +57,8 @@ Isometry3d pose(const Matrix3d& rotation, const Vector3d& position) {
   return t;
 }
 
-/// Three columns of a rotation and that of an origin, each with its fourth number: 0, 1 for the origin.
+/// The three columns of a rotation and the column of an origin. The fourth numbers are 0, and 1 for the
+/// origin.
 struct Frame {
   detail::Packed column[4];
 };
@@ -67,7 +68,7 @@ Frame frameOf(const Isometry3d& pose) {
   return {{column(pose, 0), column(pose, 1), column(pose, 2), column(pose, 3)}};
 }
 
-/// The frame `local`, seen from `parent`.
+/// Writes the frame `local`, given relative to `parent`, as a pose.
 inline void compose(const Frame& parent, const Frame& local, Isometry3d& pose) {
   using detail::Packed;
   const Packed* p = parent.column;
@@ -226,7 +227,7 @@ void Kinematics::place(const Step& step, const Eigen::Ref<const Eigen::VectorXd>
   }
 }
 
-// A joint with several coordinates, which are never mimic ones.
+// Places a joint with several coordinates. Such joints are never mimic joints.
 void Kinematics::placeFree(const Step& step, const Eigen::Ref<const Eigen::VectorXd>& q, State& state,
                            Twist* twist) const {
   const Isometry3d frame = step.parent < 0 ? step.origin : state.link[at(step.parent)] * step.origin;

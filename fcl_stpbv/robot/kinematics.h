@@ -90,7 +90,7 @@ class Kinematics {
   /// if the number of values is wrong, or if the state gives a fixed or mimic joint a value that it cannot
   /// have.
   Eigen::VectorXd configuration(const Srdf::State& state) const { return configuration(state, neutral_); }
-  /// The same with `rest`, of size() entries, in place of the neutral configuration.
+  /// configuration() with `rest`, of size() entries, instead of the neutral configuration.
   Eigen::VectorXd configuration(const Srdf::State& state, Eigen::VectorXd rest) const;
   /// First coordinate of a joint by name, -1 for fixed, mimic and unknown ones.
   int coordinate(const std::string& joint) const;
@@ -101,13 +101,13 @@ class Kinematics {
   Subtree subtree(const std::vector<int>& links) const;
   /// Fills the state. Never throws or allocates; `q` has size() entries.
   void forward(const Eigen::Ref<const Eigen::VectorXd>& q, State& state) const { forward(q, state, whole_); }
-  /// The same for a part of the robot. The rest of the state is not changed.
+  /// forward() for a part of the robot. The rest of the state is not changed.
   void forward(const Eigen::Ref<const Eigen::VectorXd>& q, State& state, const Subtree& only) const;
   /// Fills only the links' poses, with the same values as forward(). A collision check needs no more.
   void forwardPoses(const Eigen::Ref<const Eigen::VectorXd>& q, State& state) const {
     forwardPoses(q, state, whole_);
   }
-  /// The same of a part of the robot.
+  /// forwardPoses() for a part of the robot.
   void forwardPoses(const Eigen::Ref<const Eigen::VectorXd>& q, State& state, const Subtree& only) const;
 
   /// A Rate of the right size for differentiate().
@@ -118,7 +118,7 @@ class Kinematics {
                      const State& state, Rate& rate) const {
     differentiate(q, v, state, rate, whole_);
   }
-  /// The same for a part of the robot that forward() has computed.
+  /// differentiate() for a part of the robot that forward() has computed.
   void differentiate(const Eigen::Ref<const Eigen::VectorXd>& q, const Eigen::Ref<const Eigen::VectorXd>& v,
                      const State& state, Rate& rate, const Subtree& only) const;
 
@@ -132,13 +132,14 @@ class Kinematics {
   struct Step {  // one joint, or the base, ready for forward()
     JointType type;
     int parent, child;  // links; parent -1 is the world
-    int motion;         // first one, -1 for none
-    int coordinate;     // first one
+    int motion;         // index of the first motion, -1 for none
+    int coordinate;     // index of the first coordinate
     double multiplier, offset;
     Eigen::Isometry3d origin;
     Eigen::Vector3d axis;
     Eigen::Matrix3d plane;  // turns z into the axis
-    // The frame's columns in the parent's, of a joint that turns: along + cos(angle) even + sin(angle) odd.
+    // For a joint that turns, the columns of its frame in the parent's frame are
+    // along + cos(angle) even + sin(angle) odd.
     Eigen::Matrix<double, 4, 3, Eigen::DontAlign> along, even, odd;
 
     /// The value of a joint with one axis (rad or m).
@@ -157,7 +158,7 @@ class Kinematics {
 
   std::shared_ptr<const RobotModel> robot_;
   std::vector<std::string> names_;
-  std::vector<int> coordinateOf_;  // of each joint, -1 for none
+  std::vector<int> coordinateOf_;  // first coordinate of each joint, -1 for none
   Eigen::VectorXd lower_, upper_, neutral_;
   std::vector<Motion> motions_;
   std::vector<Step> steps_;  // parents before children

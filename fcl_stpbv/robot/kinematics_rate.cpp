@@ -16,7 +16,7 @@ using Eigen::Vector3d;
 using detail::at;
 using detail::crossMatrix;
 
-// Change of a twist that is fixed to a body of this velocity.
+// Time derivative of a twist that is fixed to a body that moves with this velocity.
 Twist carried(const Twist& velocity, const Twist& twist) {
   return {velocity.angular.cross(twist.linear) + velocity.linear.cross(twist.angular),
           velocity.angular.cross(twist.angular)};
@@ -27,8 +27,8 @@ void add(Twist& sum, double factor, const Twist& twist) {
   sum.angular += factor * twist.angular;
 }
 
-// Change, as the rotation vector w moves by u, of the matrix I + b K + c K^2 that turns its rate into the
-// angular velocity; b = (1 - cos)/angle^2, c = (angle - sin)/angle^3, K w = 0.
+// Change of the matrix I + b K + c K^2 while the rotation vector w moves by u. The matrix turns the rate of w
+// into the angular velocity; b = (1 - cos)/angle^2, c = (angle - sin)/angle^3, K w = 0.
 Matrix3d rateChange(const Vector3d& w, const Vector3d& u) {
   const double x = w.squaredNorm(), angle = std::sqrt(x);
   double b, c, bx, cx;  // bx, cx: derivatives with respect to the angle's square

@@ -1,4 +1,4 @@
-// The check of links that callers name by their index.
+// Checks a link that a caller names by its index.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace fcl_stpbv::detail {
 
-/// @throws Error naming `owner` and the link unless the robot has one of this index.
+/// @throws Error naming `owner` and the link, if the robot has no link of this index.
 inline void requireLink(const std::string& owner, int link, const RobotModel& robot) {
   if (link < 0 || static_cast<std::size_t>(link) >= robot.links.size())
     throw Error(owner + ": there is no link " + std::to_string(link) + " of " +

@@ -40,7 +40,7 @@ struct GeometryOptions {
   /// gets few vertices (reduce()) and a larger r that covers the others. Before that, R is doubled until the
   /// volume with all vertices keeps the limit. The limit must be above r.
   double overCoverBudget = 0;
-  /// The same for single links, by name.
+  /// The same limit for single links, by name.
   std::map<std::string, double> budgets;
   /// Whether the meshes of all links stay convex polyhedra, without STP-BVs. That is enough if the other body
   /// of each pair is an STP-BV.

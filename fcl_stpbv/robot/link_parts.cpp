@@ -49,7 +49,7 @@ Body partOf(const Body& whole, int index, int number, const ConvexPart& part, in
 
 }  // namespace
 
-// Entries stay where they are in a map; each is made by the first thread that needs it, and others wait.
+// Map entries do not move. Each is made by the first thread that needs it, and other threads wait.
 class LinkParts::Store {
  public:
   Store(const RobotGeometry& whole, const std::string& cacheFolder) : whole_(whole), cache_(cacheFolder) {}
@@ -134,7 +134,7 @@ const std::vector<Body>& LinkParts::of(int body, int most) {
 
 void LinkParts::prepare(const std::map<int, int>& most, int threads,
                         const std::function<void(std::size_t, std::size_t, const std::string&)>& progress) {
-  std::vector<std::pair<int, int>> wanted;  // body and most
+  std::vector<std::pair<int, int>> wanted;  // body and largest number of parts
   for (std::size_t i = 0; i < whole_->bodies.size(); ++i) {
     const Body& body = whole_->bodies[i];
     const auto found = most.find(body.link);

@@ -23,7 +23,7 @@ namespace {
 
 using Points = std::vector<Eigen::Vector3d>;
 
-// Whether r or R of a link's bodies follow the body.
+// Whether r or R of a link's bodies are chosen by the body's size.
 bool areFitted(const GeometryOptions& options, const std::string& link) {
   return options.links.count(link) == 0 && (options.fitr || options.fitR || options.advice);
 }
@@ -38,8 +38,8 @@ std::string textOf(const RadiiTask& task) {
   return text;
 }
 
-// One mesh on its way to a volume; the points are read when they are needed,
-// which with a warm cache may be never.
+// Makes the volume of one mesh. The points are read when they are needed, which with a warm cache may be
+// never.
 class VolumeMaker {
  public:
   VolumeMaker(const ShapeSource& source, VolumeCache& cache, Body& body)
@@ -64,14 +64,16 @@ class VolumeMaker {
  private:
   const Points& points() const { return source_.points(); }
 
-  // For FCL: rolling the hull again takes longer than all else that a kept volume needs.
+  // Makes FCL's geometry from the known vertices, because rolling the hull again would take longer than
+  // everything else that a cached volume needs.
   std::shared_ptr<StpBvGeometry> geometryOf(const StpBv::Ptr& volume) {
     const Points& vertices = volume->vertices();
     return std::make_shared<StpBvGeometry>(
         volume, std::make_shared<const HullGraph>(vertices, cache_.convexHull(vertices)));
   }
 
-  // Also the volume of all points, where a small R leaves some inside that the hull has as corners.
+  // Measures the over-cover. If a small R leaves corners of the hull inside the volume, also keeps the volume
+  // of all points.
   void keepCover(const VolumeKey& key) {
     std::string from;
     appendNumber(from, key.radii.r);
@@ -91,7 +93,7 @@ class VolumeMaker {
     body_.full = geometryOf(cache_.volume(source_.key, wide, [&] { return StpBv::build(points(), wide); }));
   }
 
-  // The body's R, or a larger one where its own leaves corners of the hull inside.
+  // The body's R, or a larger one if the body's R leaves corners of the hull inside the volume.
   double leavesNoneInside(const std::vector<int>& corners) const {
     StpBvOptions wide = body_.radii;
     for (StpBv::Ptr v = body_.volume; leftInside(*v, corners) > kNothing && wide.R < kLargestR;) {
@@ -101,7 +103,8 @@ class VolumeMaker {
     return wide.R;
   }
 
-  // How far a point is from the hull of the volume's vertices at most (m): a corner of the hull of all.
+  // Largest distance of a point from the hull of the volume's vertices (m). It is reached at a corner of the
+  // hull of all points.
   double leftInside(const StpBv& volume, const std::vector<int>& corners) const {
     using Corner = std::array<double, 3>;
     std::set<Corner> kept;
@@ -119,7 +122,8 @@ class VolumeMaker {
   }
 
   RadiiAdvice keptAdvice(const VolumeKey& key, const RadiiTask& task) {
-    constexpr double kNever = -1;  // for a least clearance that is infinite: what is kept is finite
+    // Stands for an infinite least clearance, because the cache keeps only finite numbers.
+    constexpr double kNever = -1;
     const auto ask = [&] {
       const RadiiAdvice a = adviseRadii(points(), task);
       return std::vector<double>{a.radii.r,
@@ -140,7 +144,7 @@ class VolumeMaker {
     const CoveredHull hull(points());
     body_.cover = hull.of(*body_.volume);
     for (; body_.cover.max > budget && radii.R < kLargestR; body_.cover = hull.of(*body_.volume)) {
-      radii.R = std::min(2 * radii.R, kLargestR);  // the over-cover falls towards r
+      radii.R = std::min(2 * radii.R, kLargestR);  // a larger R brings the over-cover closer to r
       body_.volume = cache_.volume(source_.key, radii, [&] { return StpBv::build(points(), radii); });
     }
     if (body_.cover.max > budget)
@@ -155,7 +159,7 @@ class VolumeMaker {
     body_.cover = hull.of(*few);
   }
 
-  static constexpr double kNothing = 1e-5;  // what a distance to the hull may be off by (m)
+  static constexpr double kNothing = 1e-5;  // tolerance of a distance to the hull (m)
 
   const ShapeSource& source_;
   VolumeCache& cache_;

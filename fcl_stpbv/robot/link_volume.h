@@ -17,7 +17,7 @@ struct VolumeKey {
 };
 VolumeKey volumeKey(const GeometryOptions& options, const std::string& link, const std::string& meshKey);
 
-/// r and R of a link's bodies: the link's own, those for all links, or what fits the body (GeometryOptions).
+/// r and R of a link's bodies: the link's own radii, those for all links, or fitted ones (GeometryOptions).
 /// `size` is only called if they are fitted. Ignores GeometryOptions::advice, which is for meshes.
 StpBvOptions radiiFor(const GeometryOptions& options, const std::string& link,
                       const std::function<BodySize()>& size);

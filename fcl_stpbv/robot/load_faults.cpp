@@ -12,7 +12,8 @@ namespace {
 constexpr std::size_t kMostShown = 100;
 constexpr std::string_view kHint = "\nGive ";
 
-// Where the last line begins, if it is a hint, as that of a missing package; else the end.
+// Where the last line begins if it is a hint, such as the hint for a missing package; else the end of the
+// message.
 std::size_t hintOf(const std::string& message) {
   const std::size_t line = message.rfind("\n");
   return line != std::string::npos && message.compare(line, kHint.size(), kHint) == 0 ? line : message.size();
@@ -26,7 +27,7 @@ void LoadFaults::refuse(bool leaveOutShapes) const {
   if (all.empty()) return;
   if (all.size() == 1) throw Error(all[0]);
   std::string message = std::to_string(all.size()) + " things are wrong:";
-  std::set<std::string> hints;  // each is said once, where it first helps
+  std::set<std::string> hints;  // each hint is given once, where it first helps
   for (std::size_t i = 0; i < all.size() && i < kMostShown; ++i) {
     const std::size_t hint = hintOf(all[i]);
     message += "\n- " + all[i].substr(0, hint);

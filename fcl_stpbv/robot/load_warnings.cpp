@@ -11,7 +11,7 @@
 namespace fcl_stpbv::detail {
 namespace {
 
-// A warning that names the joints for which `still` holds; none where there are none.
+// A warning that names the joints for which `still` holds. Empty if there are none.
 template <class Still>
 std::vector<std::string> warningOf(const RobotModel& robot, const Still& still, const char* one,
                                    const char* several) {
@@ -65,7 +65,8 @@ std::vector<std::string> raisedR(const RobotModel& robot, const RobotGeometry& g
   for (const Body& body : geometry.bodies) {
     const bool given =
         !options.fitR || options.links.count(robot.links[static_cast<std::size_t>(body.link)].name) > 0;
-    if (!body.primitive || body.volume->vertexCount() < 2 || !given) continue;  // a ball is one for any R
+    // A single vertex gives a ball for any R.
+    if (!body.primitive || body.volume->vertexCount() < 2 || !given) continue;
     if (body.volume->radii().R <= body.radii.R) continue;
     if (!most || body.volume->radii().R > most->volume->radii().R) most = &body;
   }

@@ -1,5 +1,5 @@
-// A mesh file as vertices and triangles: qhull's are read here, others by assimp in a child process with
-// limits (child_process.h), which sends them back as bytes.
+// Reads a mesh file as vertices and triangles. qhull's files are read here. Other files are read by assimp in
+// a child process with limits (child_process.h), which sends the mesh back as bytes.
 #include "fcl_stpbv/robot/mesh_file.h"
 
 #include <algorithm>
@@ -35,8 +35,8 @@ void checkReadable(const std::string& path, const Vector3d& scale) {
     throw Error(path + ": is a pipe or a device, expected a file");
 }
 
-// The text of a qhull file, or nothing where the file is a mesh for assimp. The names that robots give to
-// such files say little, so a name without a known ending is decided by its content.
+// The text of a qhull file, or no value if the file is a mesh for assimp. Such files often have names that do
+// not tell the format, so a name without a known ending is decided by the file's content.
 std::optional<std::string> qhullText(const std::string& path) {
   const std::string extension = lowerExtension(path);
   const bool named = extension == ".txt" || extension == ".otp";
@@ -53,7 +53,8 @@ void append(std::string& bytes, const std::vector<T>& items) {
   if (count > 0) bytes.append(reinterpret_cast<const char*>(items.data()), count * sizeof(T));
 }
 
-// What append() wrote. The process that wrote it may have been damaged by its file: no count is believed.
+// Reads what append() wrote. The file may have corrupted the process that wrote it, so every count is
+// checked.
 template <class T>
 std::vector<T> take(std::string_view& bytes, const std::string& path) {
   std::size_t count = 0;

@@ -19,11 +19,11 @@
 namespace fcl_stpbv::detail {
 namespace {
 
-// Those of a single reader. The readers of .gltf and .glb, of .xml and of unknown endings look at the
-// content.
+// Extensions that only one reader knows. For .gltf, .glb, .xml and unknown extensions, assimp's readers look
+// at the content.
 constexpr Words kByName{".3mf", ".amf", ".dae", ".dxf", ".fbx", ".obj", ".off", ".ogex", ".ply", ".stl"};
 
-// Those that state a unit, often millimetres or centimetres, which assimp does not apply.
+// Formats that state a unit, often millimetres or centimetres, which assimp does not apply.
 constexpr Words kWithUnit{".3mf", ".amf", ".dxf", ".fbx", ".ogex"};
 
 bool looksLikeGltf(std::string_view text) {

@@ -17,13 +17,13 @@ namespace fcl_stpbv::detail {
 /// first bytes decide that; "" otherwise. A check before assimp gives better error messages.
 std::string expectedFormat(std::string_view text, const std::string& path);
 
-/// The same of the format that assimp has read a file as: a file's name may promise another one.
+/// The extension of the format in which assimp has read a file. The file's name may say another format.
 std::string formatOf(const aiScene& scene, const Assimp::Importer& importer);
 
-/// Checks a file's content for what assimp reads over in its format. Formats that state a unit which is not
-/// applied are refused.
-/// @returns the largest number within a node's transform above a shape (m), which assimp multiplies in single
-/// precision: of COLLADA, else 0.
+/// Checks a file's content for errors that assimp ignores in its format. Formats that state a unit which is
+/// not applied are refused.
+/// @returns for COLLADA the largest number within a node's transform above a shape (m), which assimp
+/// multiplies in single precision; for other formats 0.
 /// @throws Error naming the file, what is wrong and what would work.
 double checkMeshFormat(std::string_view text, const std::string& format, const std::string& path,
                        const ReadPart& readPart);

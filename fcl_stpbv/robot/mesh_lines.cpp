@@ -16,7 +16,7 @@ constexpr std::size_t kMostDigits = 18;
 constexpr std::size_t kMostDecimals = 15;
 constexpr long kMostIndex = 2147483647;
 
-// Whether the decimals behind the 15th are more than a billionth of a number that a power of ten enlarges.
+// Whether a number has a power of ten that makes the decimals after the 15th more than a billionth of it.
 bool losesDecimals(std::string_view number) {
   const std::size_t power = std::min(number.find_first_of("eE"), number.size());
   const std::size_t point = std::min(number.find('.'), power);

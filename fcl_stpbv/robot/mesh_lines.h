@@ -9,7 +9,7 @@ namespace fcl_stpbv::detail {
 
 using MeshWords = std::vector<std::string_view>;
 
-/// Takes the next word off a text, none at its end.
+/// Takes the next word off a text; "" at the end of the text.
 std::string_view takeWord(std::string_view& text);
 
 MeshWords wordsOf(std::string_view text);
@@ -26,34 +26,36 @@ bool isMeshNumber(std::string_view word);
 constexpr const char* kNumberForm =
     "with a point for decimals, at most 18 digits before it, and no small one that a power enlarges";
 
-/// Whether a word is a whole number from 0 that fits assimp's integers of 32 bits.
+/// Whether a word is a whole number from 0 that fits assimp's 32-bit integers.
 bool readMeshIndex(std::string_view word, long& value);
 bool isMeshIndex(std::string_view word);
 
-/// Refuses a text with a NUL byte, which readers take for its end. @throws Error "name:line: ..."
+/// Refuses a text with a NUL byte, because readers would take it for the text's end. @throws Error
+/// "name:line: ..."
 void refuseNul(std::string_view text, const std::string& name);
 
 /// The lines of a text, each ended by a line feed, a carriage return or both.
 class MeshLines {
  public:
-  /// `text` and `name` must outlive this.
+  /// `text` and `name` must outlive this object.
   MeshLines(std::string_view text, const std::string& name) : rest_(text), name_(name) {}
 
   /// Moves on to the next line; false at the end.
   bool next();
 
-  /// The line without its end, and that end: "\n", "\r\n", "\r" or "".
+  /// The line without its end.
   std::string_view text() const { return text_; }
+  /// The end of the line: "\n", "\r\n", "\r" or "".
   std::string_view end() const { return end_; }
   int line() const { return line_; }
-  /// What follows this line.
+  /// The text after this line.
   std::string_view rest() const { return rest_; }
 
   /// Refuses the file at this line; the message says what would work.
   [[noreturn]] void refuse(const std::string& message) const { refuse(line_, message); }
   [[noreturn]] void refuse(int line, const std::string& message) const;
 
-  /// The same of a file that only its writer can mend.
+  /// refuse() for a file that only the program that wrote it can correct.
   [[noreturn]] void damaged(const std::string& message) const { damaged(line_, message); }
   [[noreturn]] void damaged(int line, const std::string& message) const;
 

@@ -1,4 +1,5 @@
-// Writing of meshes by assimp as OBJ, STL, PLY or GLB, by the name's ending, atomically.
+// Writes meshes by assimp as OBJ, STL, PLY or GLB, depending on the name's ending. A file is written
+// completely or not at all.
 #include <assimp/cexport.h>
 #include <assimp/scene.h>
 
@@ -26,7 +27,7 @@ struct Format {
   const char* assimpId;
 };
 
-// OBJ without its second file of materials: one preview is one file.
+// OBJ is written without its second file of materials, so that one preview is one file.
 constexpr std::array<Format, 4> kFormats{
     {{".obj", "objnomtl"}, {".stl", "stlb"}, {".ply", "plyb"}, {".glb", "glb2"}}};
 
@@ -72,7 +73,7 @@ void requireSound(const TriangleMesh& mesh, const std::string& path) {
                   " has a coordinate that is no number or beyond single precision");
 }
 
-// Colours that differ: the hue turns by the golden section from mesh to mesh.
+// A different colour for each mesh: the hue turns by the golden section from one mesh to the next.
 aiColor4D colourOf(std::size_t mesh) {
   const auto channel = [&](double shift) {
     const double hue = 0.618034 * static_cast<double>(mesh) + shift;
@@ -114,7 +115,7 @@ std::string exported(const aiScene& scene, const char* assimpId, const std::stri
   return {static_cast<const char*>(blob->data), blob->size};
 }
 
-// Whether the first byte of a binary PLY's values is that of a line feed: assimp would pass over it.
+// Whether the first byte of a binary PLY's values equals a line feed. assimp would skip that byte.
 bool beginsWithLineFeed(std::string_view ply) {
   constexpr std::string_view kEnd = "end_header\n";
   return ply.substr(ply.find(kEnd) + kEnd.size(), 1) == "\n";
@@ -135,7 +136,8 @@ void saveColoured(const std::string& path, const std::vector<TriangleMesh>& mesh
   for (const TriangleMesh& mesh : meshes) requireSound(mesh, path);
   const std::unique_ptr<aiScene> scene = sceneOf(meshes);
   const bool isPly = format->assimpId == std::string_view("plyb");
-  // Into a binary PLY assimp 5.2 writes a colour's channels as floats, which the header says are bytes.
+  // assimp 5.2 writes a colour's channels into a binary PLY as floats, although the header says that they are
+  // bytes.
   const bool isText = isPly && meshes.size() > 1;
   std::string text = exported(*scene, isText ? "ply" : format->assimpId, path);
   if (isPly && !isText && beginsWithLineFeed(text)) text = exported(*scene, "ply", path);

@@ -1,5 +1,5 @@
-// Resolves mimic joints that follow mimic joints: walks each chain to a joint
-// that moves by itself, refuses loops.
+// Resolves mimic joints that follow mimic joints: walks along each chain to a joint that moves by itself, and
+// refuses loops.
 #include "fcl_stpbv/robot/mimic_chain.h"
 
 #include "fcl_stpbv/error.h"
@@ -25,7 +25,7 @@ void MimicChains::follow(std::size_t joint) {
     state_[at(next)] = State::entered;
     chain.push_back(at(next));
   }
-  // Of a loop's joints none is ever done.
+  // If `next` was entered but is not done, the chain leads into a loop. The joints of a loop are never done.
   if (next >= 0 && state_[at(next)] == State::entered) return;
   for (; !chain.empty(); chain.pop_back()) tie(chain.back());
 }

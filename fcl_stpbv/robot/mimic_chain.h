@@ -17,14 +17,14 @@ struct Follower {
   double multiplier = 1, offset = 0;
 };
 
-/// Finds the joint at the end of each chain, every joint visited once however long the chains are.
+/// Finds the joint at the end of each chain. Every joint is visited once, however long the chains are.
 class MimicChains {
  public:
   explicit MimicChains(std::vector<Follower> joints);
 
-  /// What the value of a joint is, in that of the joint at its chain's end; of a
-  /// joint that follows none, its own value.
-  /// @throws Error where the chain has no end, without the joint's place.
+  /// The rule that gives the value of a joint from the value of the joint at its chain's end. For a joint
+  /// that follows none, its own value.
+  /// @throws Error if the chain has no end. The message does not contain the joint's place.
   Mimic end(std::size_t joint);
 
  private:
@@ -34,7 +34,7 @@ class MimicChains {
   void tie(std::size_t joint);
 
   std::vector<Follower> joints_;
-  std::vector<int> next_;  // -1 for none
+  std::vector<int> next_;  // index of the joint that is followed, -1 for none
   std::vector<Mimic> end_;
   std::vector<State> state_;
   FirstProposals proposals_;

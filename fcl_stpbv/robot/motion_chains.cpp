@@ -1,9 +1,9 @@
 // Motion of the bodies along a straight line between two configurations:
-// 1. Once for a robot: the joints from the link where a pair's chains meet out to each of its bodies.
-// 2. Once for a motion: the joints' speeds and the lengths beyond them. They give a bound on the acceleration
-//    of every point of a body: the centripetal acceleration of each joint, and the Coriolis acceleration from
-//    the joints nearer to the root.
-// 3. At a time: poses and velocities of all links from the kinematics.
+// 1. Once for a robot: find the joints from the link where a pair's chains meet out to each of its bodies.
+// 2. Once for a motion: compute the joints' speeds and the lengths beyond them. They give a bound on the
+//    acceleration of every point of a body: the centripetal acceleration of each joint, and the Coriolis
+//    acceleration from the joints nearer to the root.
+// 3. For a time: compute poses and velocities of all links by the kinematics.
 #include "fcl_stpbv/robot/motion_chains.h"
 
 #include <algorithm>
@@ -77,7 +77,7 @@ void MotionChains::addPair(const CheckedPair& pair, int bodies) {
   pairs_.push_back(added);
 }
 
-// The joints from `root` out to the body's link; the base is one more where the root is the world.
+// The joints from `root` out to the body's link. If the root is the world, the base counts as one more joint.
 MotionChains::Side MotionChains::sideOf(int body, int root) {
   Side side{body, static_cast<int>(hops_.size()), 0};
   for (int link = bodies_[at(body)].link; link >= 0 && link != root; link = parent_[at(link)]) {
@@ -136,14 +136,14 @@ bool MotionChains::begin(const ConstVector& q0, const ConstVector& q1) {
   return true;
 }
 
-// From the outermost joint in: its own centripetal acceleration, and that of the joints further in, which
-// carry what it moves around (Coriolis).
+// Goes from the outermost joint inwards. Each joint adds its own centripetal acceleration, and the Coriolis
+// acceleration from the joints nearer to the root, which turn what it moves.
 void MotionChains::prepare(Side& side) const {
   const Placed& body = bodies_[at(side.body)];
   side.acceleration = 0;
   side.steady = true;
   if (body.link < 0) return;
-  if (body.convex && body.body.unbounded()) {  // where it turns, no bound holds for all its points
+  if (body.convex && body.body.unbounded()) {  // if it turns, no bound holds for all its points
     for (int h = side.firstHop; h < side.lastHop; ++h)
       if (hop_[at(hops_[at(h)])].spin > 0) side.acceleration = kInfinity;
     return;
@@ -182,12 +182,12 @@ void MotionChains::place(double t) {
       body.where = link * body.centre;
       spin = std::max(spin, twist_[at(body.link)].angular.norm());
     }
-    // A half space has no ball; it is evaluated at the other body.
+    // A half space has no bounding ball. Its support is evaluated at the other body.
     const double reach = body.where.lpNorm<1>() + body.radius;
     length = std::max(length, std::isfinite(reach) ? reach : body.body.pose.translation().lpNorm<1>());
   }
-  // Each of the products and sums from the root out to a bound is off by a few units
-  // in the last place of the longest length.
+  // Each product and sum on the way from the root to a bound is rounded by a few units in the last place of
+  // the longest length.
   const double steps = static_cast<double>(hop_.size() + 16);
   slack_ = 16 * std::numeric_limits<double>::epsilon() * steps * length * (1 + spin);
 }

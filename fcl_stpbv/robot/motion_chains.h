@@ -23,48 +23,48 @@ class MotionChains {
     int link;  ///< -1 for an obstacle
     const fcl::CollisionGeometryd* geometry;
     Eigen::Isometry3d local;
-    Eigen::Vector3d centre;  ///< of its ball, in the link's frame (m)
-    double radius;           ///< of that ball (m)
-    bool finite;             ///< its corners are numbers, if it is a mesh
+    Eigen::Vector3d centre;  ///< centre of its bounding ball, in the link's frame (m)
+    double radius;           ///< radius of that ball (m)
+    bool finite;             ///< whether all corners are finite, if the body is a mesh
     bool convex;
     ConvexBody body;
-    Eigen::Vector3d where{0, 0, 0};  ///< the ball's centre, now (m, world)
+    Eigen::Vector3d where{0, 0, 0};  ///< present centre of the ball (m, world)
   };
   /// One body of a pair, and the joints that move it.
   struct Side {
-    int body;               ///< among the bodies
+    int body;               ///< index of the body
     int firstHop, lastHop;  ///< joints of the chain, inner ones first
     double acceleration = 0;
-    bool steady = false;  ///< at most one joint turns, about an axis that its parent holds
+    bool steady = false;  ///< at most one joint turns, about an axis that is fixed to its parent
   };
   struct Pair {
     Side side[2];
-    int root;  ///< the link that both are seen from, -1 for the world
+    int root;  ///< the link relative to which both are described, -1 for the world
   };
 
-  /// All must outlive this.
+  /// All arguments must outlive this object.
   /// @throws Error for a pair that names no body.
   MotionChains(const Kinematics& kinematics, const RobotGeometry& geometry,
                const std::vector<Obstacle>& obstacles, const std::vector<CheckedPair>& pairs);
 
-  /// Between which configurations. False where they are not of the robot's size or not finite.
+  /// Sets the two configurations. False if they do not have the robot's size or are not finite.
   bool set(const ConstVector& q0, const ConstVector& q1);
-  /// The same, and the bounds on accelerations.
+  /// set(), and computes the bounds on accelerations.
   bool begin(const ConstVector& q0, const ConstVector& q1);
-  /// Everything at time `t`.
+  /// Computes everything at time `t`.
   void place(double t);
 
   const Pair& pair(int index) const { return pairs_[static_cast<std::size_t>(index)]; }
   const Placed& body(const Side& side) const { return bodies_[static_cast<std::size_t>(side.body)]; }
-  /// Of a pair's body, seen from the pair's root, of a point at `about` (world).
+  /// Velocity of a pair's body relative to the pair's root, at the point `about` (world).
   BodyVelocity velocityOf(const Pair& pair, int side, const Eigen::Vector3d& about) const;
-  /// What rounding may add to a height over a plane (m).
+  /// Upper bound on the rounding of a height over a plane (m).
   double slack() const { return slack_; }
 
  private:
-  struct Hop {  // a joint on the way out from the root, with what the motion at hand makes of it
-    double slide = 0, spin = 0, turns = 1;  // speeds, and own acceleration in spin^2 times lever
-    double length = 0;                      // from the joint before to its child's origin at most
+  struct Hop {  // a joint on the way out from the root, with its data for the present motion
+    double slide = 0, spin = 0, turns = 1;  // speeds; factor of spin^2 times lever in its own acceleration
+    double length = 0;                      // largest distance from the joint before to its child's origin
   };
   void addBodies(const RobotGeometry& geometry, const std::vector<Obstacle>& obstacles);
   void addPair(const CheckedPair& pair, int bodies);
@@ -75,14 +75,14 @@ class MotionChains {
   std::vector<Placed> bodies_;
   std::vector<Pair> pairs_;
   std::vector<int> hops_;              // joints of all chains
-  std::vector<int> parent_;            // of each link
-  std::vector<std::vector<int>> own_;  // motions that a link adds to its parent's
+  std::vector<int> parent_;            // parent of each link
+  std::vector<std::vector<int>> own_;  // for each link: the motions that its joint adds to the parent's
   std::vector<int> motionOf_;          // first motion of each joint, -1 for none; the base's is the last
   Kinematics::State state_;
-  std::vector<Twist> twist_;  // of each link, per unit of time
-  std::vector<Hop> hop_;      // of each joint, the base's last
+  std::vector<Twist> twist_;  // velocity of each link, per unit of time
+  std::vector<Hop> hop_;      // for each joint, the base's last
   Eigen::VectorXd q0_, way_, q_;
-  double reach_ = 0;  // how far a joint's child comes from the joint, with the way it slides, at most (m)
+  double reach_ = 0;  // largest distance of a joint's child from the joint, with the way it slides (m)
   double slack_ = 0;
 };
 

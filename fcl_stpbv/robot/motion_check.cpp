@@ -2,9 +2,11 @@
 // separating planes in place of distances (docs/motion.md).
 // 1. robot/motion_chains.h computes the bodies' velocities and bounds on their accelerations.
 // 2. For each time examined, the velocities give the times before and after it for which a plane keeps the
-//    bodies apart (planeCover). First the plane between their bounding balls; where that does not cover
-//    enough, the plane of the exact distance's normal. Beside meshes and trees the bound on the bodies'
-//    speed, and a plane for each element (elementCover).
+//    bodies apart (planeCover). The first plane tried is the one between their bounding balls. If that does
+//    not
+//    cover enough, the plane of the exact distance's normal is used. For meshes and trees, the bound on the
+//    bodies'
+//    speed and a plane for each element (elementCover) are used too.
 // 3. adapter/motion_search.h chooses the times, until the covers contain the whole motion or a contact is
 //    found. For the closest approach the margin is the smallest distance so far.
 #include "fcl_stpbv/robot/motion_check.h"
@@ -33,7 +35,7 @@ const std::vector<CheckedPair>& checked(const std::vector<CheckedPair>& pairs) {
 
 }  // namespace
 
-/// The pairs' chains, what was found of each pair before, and the covers.
+/// The pairs' chains, what earlier queries found for each pair, and the covers.
 class MotionCheck::Impl {
  public:
   Impl(std::shared_ptr<const Kinematics> kinematics, std::shared_ptr<const RobotGeometry> geometry,
@@ -70,11 +72,11 @@ class MotionCheck::Impl {
   std::vector<Obstacle> obstacles_;
   std::vector<CheckedPair> pairs_;
   MotionChains chains_;
-  std::vector<PairCache> caches_;  // of each pair
-  CollisionChecker checker_;       // of single configurations
+  std::vector<PairCache> caches_;  // one for each pair
+  CollisionChecker checker_;       // for single configurations
 };
 
-/// For the first contact: farther than a margin that does not change.
+/// For the first contact: the distance must be above a margin that does not change.
 class MotionCheck::Impl::Scene {
  public:
   Scene(Impl& check, double margin) : check_(check), margin_(margin) {}
@@ -93,7 +95,7 @@ class MotionCheck::Impl::Scene {
   double margin_;
 };
 
-/// For the closest approach: farther than what is the least so far.
+/// For the closest approach: the distance must be above the least distance so far.
 class MotionCheck::Impl::ApproachScene {
  public:
   ApproachScene(Impl& check, double precision, double offset, std::vector<Approach>& best)
@@ -109,7 +111,7 @@ class MotionCheck::Impl::ApproachScene {
     const Distance found = check_.ask(index);
     if (found.status == DistanceStatus::invalid) return false;
     if (found.distance < best.distance) best = {found.distance, offset_ + t_};
-    // A depth that is not exact proves no more than its own lower bound.
+    // If the depth is not exact, only its lower bound is proven.
     loose |= found.lower < found.distance - precision_;
     cover =
         longer(cover, check_.cover(index, found, std::min(best.distance, found.lower) - precision_, most));
@@ -159,7 +161,7 @@ Cover MotionCheck::Impl::cover(int pair, const Distance& found, double margin, d
     if (margin < 0 && !a.convex && !b.convex) return {most, most};  // surfaces have no depth
     const double acceleration = va.acceleration + vb.acceleration;
     if (!std::isfinite(acceleration)) return {};
-    // A half space has no ball; it does not turn here.
+    // A half space has no bounding ball. It does not turn here.
     const auto turning = [&](const Placed& body, const BodyVelocity& v) {
       const double turn = v.angular.norm();
       return turn > 0 ? turn * ((body.where - about).norm() + body.radius) : 0.0;

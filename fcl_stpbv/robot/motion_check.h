@@ -55,7 +55,7 @@ class MotionCheck {
   /// to the other body.
   bool isMotionFree(const ConstVector& q0, const ConstVector& q1, double margin = 0);
 
-  /// The same, but also finds the pair of the first contact, and brackets its time to the request's
+  /// isMotionFree() that also finds the pair of the first contact, and brackets its time to the request's
   /// tolerance. Undecided for a q that is not finite or has a wrong size.
   MotionBracket firstContact(const ConstVector& q0, const ConstVector& q1, const MotionRequest& request = {});
 

@@ -21,7 +21,7 @@ Eigen::VectorXd Kinematics::configuration(const Srdf::State& state, Eigen::Vecto
   const auto known = [&](const auto& use) {
     for (const auto& [name, values] : state.joints) {
       const int joint = robot_->joint(name);
-      if (joint < 0) continue;  // a virtual joint, or one of another robot's variant
+      if (joint < 0) continue;  // a virtual joint, or a joint of another variant of the robot
       const std::string where = "posture '" + state.name + "': joint '" + name + "' ";
       const JointModel& model = robot_->joints[at(joint)];
       const int count = std::max(1, freedoms(model.type));
@@ -34,9 +34,10 @@ Eigen::VectorXd Kinematics::configuration(const Srdf::State& state, Eigen::Vecto
   known([&](const std::string&, const JointModel&, int first, const std::vector<double>& values) {
     for (std::size_t k = 0; first >= 0 && k < values.size(); ++k) q[first + static_cast<int>(k)] = values[k];
   });
-  // The others follow: a posture that says something else would be another one than it seems.
+  // Mimic joints follow other joints, and fixed joints do not move. If the state gives them another value, it
+  // means another posture than the robot can have.
   known([&](const std::string& where, const JointModel& model, int first, const std::vector<double>& values) {
-    constexpr double kOff = 1e-3;  // what is written with few digits (rad or m)
+    constexpr double kOff = 1e-3;  // tolerance for values written with few digits (rad or m)
     if (first >= 0) return;
     const double own = model.mimic ? steps_[at(stepOf_[at(model.child)])].value(q) : 0.0;
     const bool turns = model.type == JointType::revolute || model.type == JointType::continuous;

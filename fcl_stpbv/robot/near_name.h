@@ -10,7 +10,7 @@
 
 namespace fcl_stpbv::detail {
 
-/// Letters to add, leave out or replace until `a` is `b`.
+/// Edit distance: number of letters to add, leave out or replace to turn `a` into `b`.
 inline std::size_t lettersApart(const std::string& a, const std::string& b) {
   std::vector<std::size_t> row(b.size() + 1);
   std::iota(row.begin(), row.end(), std::size_t{0});
@@ -25,12 +25,12 @@ inline std::size_t lettersApart(const std::string& a, const std::string& b) {
   return row.back();
 }
 
-/// The one of `known` that differs from `name` by fewest letters, a third of them at most, or that holds it
-/// or is held by it; "" without one. Upper and lower case are the same. It looks at all of them, which takes
-/// about a microsecond each.
+/// The name in `known` that differs from `name` by the fewest letters (at most a third of them), or that
+/// contains it or is contained in it; "" if there is none. Upper and lower case are the same. Looks at all
+/// names, which takes about a microsecond each.
 inline std::string nearName(const std::string& name, const std::vector<std::string>& known) {
-  constexpr std::size_t kLongest = 100;  // longer names are no slips of the hand
-  constexpr std::size_t kLeast = 3;      // letters that a longer name holds not by chance
+  constexpr std::size_t kLongest = 100;  // longer names are no typing errors
+  constexpr std::size_t kLeast = 3;      // a longer name contains so many letters not by chance
   const std::string wanted = inSmallLetters(name);
   const std::size_t most = wanted.size() < 2 ? 0 : std::max<std::size_t>(1, wanted.size() / 3);
   std::string best;
@@ -48,26 +48,26 @@ inline std::string nearName(const std::string& name, const std::vector<std::stri
   return best;
 }
 
-/// "; did you mean 'ee_link'?", and "" of "".
+/// "; did you mean 'ee_link'?" for a name, "" for "".
 inline std::string proposed(const std::string& near) {
   return near.empty() ? "" : "; did you mean '" + near + "'?";
 }
 
-/// That of the nearest name. For messages.
+/// proposed() of the nearest name. For messages.
 inline std::string didYouMean(const std::string& name, const std::vector<std::string>& known) {
   return proposed(nearName(name, known));
 }
 
-/// Proposals for the first few of many misspelt names: each looks at all that are known.
+/// Proposals for only the first few of many misspelt names, because each proposal looks at all known names.
 class FirstProposals {
  public:
-  /// nearName() of the names that `known()` returns, or "".
+  /// nearName() among the names that `known()` returns, or "".
   template <class Known>
   std::string near(const std::string& name, const Known& known) {
     constexpr int kMost = 5;
     return asked_++ < kMost ? nearName(name, known()) : "";
   }
-  /// The same as didYouMean() says it.
+  /// near() in the words of didYouMean().
   template <class Known>
   std::string of(const std::string& name, const Known& known) {
     return proposed(near(name, known));
@@ -77,7 +77,7 @@ class FirstProposals {
   int asked_ = 0;
 };
 
-/// The names of links, of joints or of states.
+/// The names of all links, joints or states.
 template <class Named>
 std::vector<std::string> namesOf(const std::vector<Named>& all) {
   std::vector<std::string> names;

@@ -17,7 +17,7 @@ std::vector<std::pair<std::string, Eigen::VectorXd>> namedPostures(const Kinemat
   for (const Srdf::State& state : srdf->allStates()) {
     try {
       postures.emplace_back(state.name, kinematics.configuration(state));
-    } catch (const Error&) {  // no posture
+    } catch (const Error&) {  // an invalid state is no posture
     }
   }
   return postures;
@@ -26,7 +26,7 @@ std::vector<std::pair<std::string, Eigen::VectorXd>> namedPostures(const Kinemat
 NeutralPosture judgeNeutral(std::shared_ptr<const Kinematics> kinematics,
                             std::shared_ptr<const RobotGeometry> geometry, const std::vector<PairEntry>& list,
                             const Eigen::VectorXd& neutral, const Srdf* srdf, double margin) {
-  constexpr int kRandom = 200;  // some 0.1 s for a humanoid
+  constexpr int kRandom = 200;  // they take about 0.1 s for a humanoid
   std::vector<LinkPair> pairs;
   for (const PairEntry& entry : list)
     if (!entry.obstacle && entry.reason != PairReason::adjacent && entry.reason != PairReason::rigid)

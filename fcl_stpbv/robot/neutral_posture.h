@@ -14,9 +14,9 @@ struct NeutralPosture {
   /// Number of pairs of links that collide there, without adjacent and rigidly joined ones.
   int colliding = 0;
   static constexpr std::size_t kNamed = 3;
-  std::vector<LinkPair> named;  ///< the first so many of them
+  std::vector<LinkPair> named;  ///< the first kNamed of them
   Eigen::VectorXd better;       ///< a configuration with fewer collisions; empty if none was found
-  std::string state;            ///< the group_state that this is, "" for a random configuration
+  std::string state;            ///< the group_state that `better` is, "" for a random configuration
   int collidingThere = 0;
 };
 
@@ -25,8 +25,8 @@ struct NeutralPosture {
 std::vector<std::pair<std::string, Eigen::VectorXd>> namedPostures(const Kinematics& kinematics,
                                                                    const Srdf* srdf);
 
-/// Counts the pairs of `list` that collide in `neutral`; if there are any, looks at namedPostures(),
-/// then at 200 random configurations, for the first with the fewest. The same for the same list.
+/// Counts the pairs of `list` that collide in `neutral`. If there are any, searches namedPostures() and then
+/// 200 random configurations for the first with the fewest. The same list always gives the same result.
 NeutralPosture judgeNeutral(std::shared_ptr<const Kinematics> kinematics,
                             std::shared_ptr<const RobotGeometry> geometry, const std::vector<PairEntry>& list,
                             const Eigen::VectorXd& neutral, const Srdf* srdf, double margin);

@@ -10,15 +10,15 @@
 namespace fcl_stpbv::detail {
 namespace {
 
-// assimp leaves out larger faces.
+// assimp leaves out faces with more corners.
 constexpr long kMostCorners = 9;
-// assimp's buffer for one.
+// The size of assimp's buffer for a line.
 constexpr std::size_t kLongestLine = 4095;
 
 struct OffHeader {
-  std::size_t coordinates = 3;  // of a vertex, its weight with them
-  std::size_t numbers = 3;      // all that a vertex must have
-  bool colours = false;         // whose numbers may be more or fewer
+  std::size_t coordinates = 3;  // coordinates of a vertex, with its weight
+  std::size_t numbers = 3;      // numbers that every vertex must have
+  bool colours = false;         // whether a colour may follow, of any number of numbers
   long vertices = 0, faces = 0;
 };
 
@@ -73,7 +73,7 @@ class OffLines {
   OffHeader readHeader() {
     OffHeader header;
     std::string_view word = headerWord();
-    // Without the keyword assimp takes a leading 4 for a part of it.
+    // If the keyword is missing, assimp takes a leading 4 for a part of it.
     if (std::isdigit(static_cast<unsigned char>(word[0])) == 0 || word[0] == '4') {
       readKeyword(word, header);
       word = headerWord();
@@ -106,7 +106,7 @@ class OffLines {
     header.numbers = header.coordinates + others;
   }
 
-  // assimp skips empty lines only.
+  // assimp skips only empty lines.
   void expectItem(long done, long promised, const std::string& items) {
     if (ended_)
       lines_.damaged("ends after " + std::to_string(done) + " of the " + std::to_string(promised) + " " +
@@ -119,7 +119,7 @@ class OffLines {
   }
 
   void checkVertex(const OffHeader& header) {
-    // Without a word for them in the header a colour may follow, of three or four numbers.
+    // If the header has no word for colours, a colour of three or four numbers may follow.
     const std::size_t more = words_.size() - std::min(words_.size(), header.numbers);
     bool good = words_.size() >= header.numbers && (more == 0 || more == 3 || more == 4 || header.colours);
     for (std::size_t k = 0; good && k < header.coordinates; ++k) good = isMeshNumber(words_[k]);
@@ -145,7 +145,7 @@ class OffLines {
   }
 
   MeshLines lines_;
-  MeshWords words_;  // those of the line that are not taken yet
+  MeshWords words_;  // the words of the line that are not taken yet
   bool ended_ = false;
 };
 

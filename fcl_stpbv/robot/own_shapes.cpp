@@ -1,4 +1,5 @@
-// The distance of each mesh or primitive of one link to each of the other, less the margins r of both.
+// Computes the distance of each mesh or primitive of one link to each of the other, minus the margins r of
+// both.
 #include "fcl_stpbv/robot/own_shapes.h"
 
 #include "fcl_stpbv/adapter/fcl_distance.h"
@@ -10,7 +11,7 @@
 namespace fcl_stpbv::detail {
 namespace {
 
-// How far a body's surface is outside its mesh at least.
+// Least height of a body's surface over its mesh.
 double marginOf(const Body& body) { return body.volume && !body.file.empty() ? body.volume->radii().r : 0; }
 
 }  // namespace

@@ -1,4 +1,5 @@
-// Meshes and primitives themselves, without hulls and margins: what no model of a robot can clear.
+// Distances of the meshes and primitives themselves, without hulls and margins. No model of a robot can be
+// clear where these are not.
 #pragma once
 
 #include <fcl/geometry/collision_geometry.h>

@@ -34,7 +34,7 @@ std::vector<std::string> splitAtColons(const char* list) {
   return parts;
 }
 
-// The name that a folder's package.xml states, or "" where there is none.
+// The name in a folder's package.xml, or "" if there is none.
 std::string packageIn(const fs::path& folder) {
   std::error_code ignored;
   const fs::path file = folder / "package.xml";
@@ -45,7 +45,7 @@ std::string packageIn(const fs::path& folder) {
     const tinyxml2::XMLElement* name = document.RootElement()->FirstChildElement("name");
     return name && name->GetText() ? name->GetText() : "";
   } catch (const Error&) {
-    return "";  // not a package then; the path shows up among those tried
+    return "";  // the folder is no package; its path is listed among those tried
   }
 }
 
@@ -64,7 +64,7 @@ bool isPackage(const fs::path& folder, const std::string& name) {
   return plain.filename() == name || packageIn(folder) == name;
 }
 
-// The package that a name is of, and the path in it, however many slashes lead there.
+// The package of a name and the path in it, whatever the number of slashes between them.
 std::pair<std::string, std::string> partsOf(const std::string& uri) {
   const std::string inside = uri.substr(kPackage.size());
   const std::size_t slash = inside.find('/');
@@ -77,14 +77,14 @@ std::pair<std::string, std::string> partsOf(const std::string& uri) {
 // visited ones.
 void findBelow(const fs::path& folder, const std::string& package, std::set<fs::path>& seen,
                std::vector<std::string>& found) {
-  constexpr std::size_t kMost = 100000;  // where somebody names a whole disk
+  constexpr std::size_t kMost = 100000;  // limit in case somebody names a whole disk
   std::error_code end, ignored;
   if (seen.size() == kMost || !seen.insert(fs::canonical(folder, ignored)).second) return;
   if (fs::exists(folder / "package.xml", ignored)) {
     if (packageIn(folder) == package) found.push_back(folder.string());
     return;
   }
-  std::set<fs::path> inner;  // in the same order everywhere
+  std::set<fs::path> inner;  // sorted, so that the order is the same everywhere
   fs::directory_iterator entry(folder, fs::directory_options::skip_permission_denied, end);
   for (; !end && entry != fs::directory_iterator(); entry.increment(end))
     if (entry->is_directory(ignored) && entry->path().filename().string()[0] != '.')
@@ -142,8 +142,8 @@ std::vector<std::string> PackagePath::candidates(const std::string& uri) const {
            next != std::string::npos && rest.find('/', next + 1) != std::string::npos;
            next = rest.find('/', next + 1))
         add(fs::path(folder) / rest.substr(next + 1));
-    // A download has its packages beside each other, often without a package.xml.
-    constexpr int kNear = 3;  // the URDF's folder, its package, and what holds that
+    // In a downloaded folder the packages are often beside each other, without a package.xml.
+    constexpr int kNear = 3;  // the URDF's folder, its package, and the folder that contains the package
     for (const std::string& place : urdfFolders_) {
       fs::path folder = place;
       for (int up = 0; up < kNear; ++up, folder = folder.parent_path()) add(folder / package / rest);
@@ -170,7 +170,7 @@ std::string PackagePath::resolve(const std::string& uri) const {
   std::error_code ignored;
   for (const std::string& path : paths)
     if (fs::is_regular_file(path, ignored)) return path;
-  for (const std::string& name : {uri, percentDecoded(uri)}) {  // reads many folders: only where it must be
+  for (const std::string& name : {uri, percentDecoded(uri)}) {  // last, because it reads many folders
     if (!startsWith(name, kPackage)) continue;
     const auto [package, rest] = partsOf(name);
     for (const std::string& place : deeper(package)) {

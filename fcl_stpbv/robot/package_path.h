@@ -22,23 +22,25 @@ namespace fcl_stpbv::detail {
 /// space if no file has the literal name. Not thread-safe: one thread at a time may use an object.
 class PackagePath {
  public:
-  /// `urdf` is the file that names will come from; `folders` go before everything else.
+  /// `urdf` is the file that contains the names. `folders` are searched first.
   explicit PackagePath(const std::string& urdf, std::vector<std::string> folders = {});
 
   /// The path of an existing file. @throws Error naming every path that was tried.
   std::string resolve(const std::string& uri) const;
 
-  /// The folder that a relative name is of: where resolve() finds it, else the URDF's own.
+  /// The folder that a relative name starts from: the one where resolve() finds the file, else the URDF's
+  /// folder.
   std::string folderOf(const std::string& name) const;
 
  private:
   std::vector<std::string> candidates(const std::string& uri) const;
   const std::vector<std::string>& deeper(const std::string& package) const;
 
-  std::vector<std::string> urdfFolders_;                            // of the name, then of the file behind it
-  std::vector<std::string> folders_;                                // may hold packages, or be one
-  std::vector<std::string> rosFolders_;                             // of these, ROS_PACKAGE_PATH
-  std::vector<std::string> prefixes_;                               // hold share/<package>
+  // The folder of the URDF's name, then the folder of the file behind a symbolic link.
+  std::vector<std::string> urdfFolders_;
+  std::vector<std::string> folders_;     // each contains packages or is a package
+  std::vector<std::string> rosFolders_;  // those of them that come from ROS_PACKAGE_PATH
+  std::vector<std::string> prefixes_;    // each contains share/<package>
   mutable std::map<std::string, std::vector<std::string>> deeper_;  // packages found deeper, by name
   std::vector<std::string> above_;  // folders around the URDF, innermost first
 };

@@ -35,14 +35,14 @@ const char* srdfReason(const PairEntry& entry) {
 }  // namespace
 
 void requireRoomForPairs(const Kinematics& kinematics, const RobotGeometry& geometry, std::size_t obstacles) {
-  // A pair keeps a configuration and a row of the Jacobian with its structure.
+  // Memory of a pair: a configuration, and a row of the Jacobian with its structure.
   constexpr double kMostBytes = 4e9;
   const double bytes = 1000.0 + 40.0 * kinematics.size();
   const double bodies = static_cast<double>(geometry.bodies.size());
   double pairs = bodies * (bodies - 1) / 2 + bodies * static_cast<double>(obstacles);
   for (std::size_t l = 0; l < kinematics.robot().links.size(); ++l) {
     const auto [first, last] = geometry.of(static_cast<int>(l));
-    pairs -= 0.5 * (last - first) * (last - first - 1);  // those of one link
+    pairs -= 0.5 * (last - first) * (last - first - 1);  // pairs of bodies of one link
   }
   if (pairs * bytes <= kMostBytes) return;
   throw Error(kinematics.robot().path + ": the " + std::to_string(static_cast<long>(pairs)) + " pairs of " +

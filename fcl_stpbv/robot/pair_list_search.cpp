@@ -104,7 +104,7 @@ class Search {
                : PairSearch(kinematics_, geometry_, entry.link1, entry.link2);
   }
 
-  // The pairs that the tree left open are judged by samples; those found clear go on to descents and proofs.
+  // Judges the pairs that the tree left open by samples. Pairs found clear go on to descents and proofs.
   void sample() {
     std::vector<PairEntry*> open;
     for (std::size_t e = 0; e < list_.size(); ++e)
@@ -123,7 +123,7 @@ class Search {
     settleAll(clear.size(), [&](std::size_t i) { return settle(*open[clear[i]], found[clear[i]]); });
   }
 
-  // Each pair is settled by itself, so that it does not matter how many threads share them.
+  // Settles each pair by itself, so that the result does not depend on the number of threads.
   template <class Settle>
   void settleAll(std::size_t count, Settle settleOne) {
     std::vector<std::optional<Open>> left(count);
@@ -136,7 +136,7 @@ class Search {
 
   void judge(PairEntry& entry, const PairSamples& found) {
     constexpr int kFewest =
-        60;  // a pair that is clear in 5 % of them is missed with probability 0.95^60 = 5 %
+        60;  // a pair that is clear in 5 % of the samples is missed with probability 0.95^60 = 5 %
     entry.samples = found.samples;
     entry.collisions = found.collisions;
     note(entry, found.closest.front().first, found.closest.front().second);
@@ -160,7 +160,7 @@ class Search {
   }
 
   // Descents from the closest samples, a short proof, descents from random configurations, until one of them
-  // decides. @return the proof that is left open, none where the pair is decided.
+  // decides. @return the proof that is left open; no value if the pair is decided.
   std::optional<Open> settle(PairEntry& entry, const PairSamples& found) const {
     PairSearch search = searchOf(entry);
     const auto descend = [&](Eigen::VectorXd q) {
@@ -180,7 +180,9 @@ class Search {
     if (scene_.kinematics) {
       open.proof = unproven(scene_, entry);
       // Ways of more joints than usual get fewer boxes and random descents: a box takes the square of the
-      // joints, a descent their number, and a robot of long ways has many pairs.
+      // Pairs with more joints than usual get fewer boxes and random descents, because a box takes time in
+      // proportion to the square of the joints, a descent to their number, and a robot with long chains has
+      // many pairs.
       constexpr double kUsual = 24;  // joints
       const double joints =
           std::max<double>(static_cast<double>(open.proof.open.front().lower.size()), movingJoints(entry));
@@ -190,11 +192,11 @@ class Search {
       const double boxes = static_cast<double>(options_.proofBoxes) * std::pow(share, 3);
       if (advance(open, std::lround(std::min(boxes, kUnlimited)))) {
         if (entry.reason != PairReason::neverProven) return std::nullopt;
-        constexpr double kOfProven = 50;  // for how close it comes: 3 % of the time of a list
+        constexpr double kOfProven = 50;  // to find how close the pair comes; they take 3 % of a list's time
         descents = std::min(descents, kOfProven);
       }
     }
-    // Each pair has its own random numbers, whatever became of those before it.
+    // Each pair has its own random numbers, so that they do not depend on the pairs before it.
     std::mt19937_64 random(options_.seed +
                            0x9e3779b97f4a7c15u * (1 + static_cast<std::size_t>(&entry - list_.data())));
     for (int i = 0; i < descents; ++i)
@@ -203,7 +205,7 @@ class Search {
     return open;
   }
 
-  // Between the two, mimic ones included, of which many may follow one coordinate.
+  // Number of moving joints between the two. Mimic joints count too, because many may follow one coordinate.
   int movingJoints(const LinkPair& pair) const {
     const RobotModel& robot = kinematics_->robot();
     const std::vector<int> path = jointPath(robot, pair.link1, pair.obstacle ? 0 : pair.link2).joints;
@@ -212,7 +214,7 @@ class Search {
     }));
   }
 
-  // Goes on with a proof; whether that decided the pair.
+  // Continues a proof. @return whether that decided the pair.
   bool advance(Open& open, long boxes) const {
     const long before = open.proof.boxes;
     open.proof = provePair(scene_, *open.entry, std::move(open.proof.open), boxes);
@@ -228,14 +230,14 @@ class Search {
     return open.proof.proven();
   }
 
-  // Rounds over the pairs still open with twice the boxes each time, so that the
-  // ones that take few are decided first.
+  // Goes round the pairs that are still open, with twice the boxes in each round. So pairs that need few
+  // boxes are decided first.
   void prove() {
     using Clock = std::chrono::steady_clock;
     constexpr long kBoxesAtOnce = 500;  // some 10 ms
     const auto end = Clock::now() + std::chrono::duration<double>(options_.proofSeconds);
     const std::size_t all = open_.size();
-    bool looked = options_.proofSeconds > 0;  // at any box in the last round
+    bool looked = options_.proofSeconds > 0;  // whether the last round examined any box
     for (long round = kBoxesAtOnce; !open_.empty() && looked; round *= 2) {
       looked = false;
       const auto decided = [&](Open& open) {
@@ -244,7 +246,7 @@ class Search {
           if (Clock::now() >= end) return false;
           const long before = open.proof.boxes;
           if (advance(open, kBoxesAtOnce)) return true;
-          if (open.proof.boxes == before) return false;  // nothing a box could cover
+          if (open.proof.boxes == before) return false;  // no box can be covered
           looked = true;
         }
         return false;
@@ -254,8 +256,8 @@ class Search {
     }
   }
 
-  // The neutral configuration must stay outside the influence, or an
-  // optimiser starts inside the damping zone.
+  // The neutral configuration must stay outside the influence. Otherwise an optimiser starts inside the
+  // damping zone.
   static void propose(PairEntry& entry) {
     const double room = std::max(0.0, entry.neutralDistance);
     entry.security = std::min(0.01, 0.25 * room);
@@ -269,7 +271,7 @@ class Search {
   Eigen::VectorXd neutral_;
   std::vector<PairEntry> list_;
   std::vector<char> isFresh_;   // for each entry, whether it is searched
-  std::vector<char> isJoined_;  // whether it is of adjacent links and searched all the same
+  std::vector<char> isJoined_;  // whether its links are adjacent and it is searched nevertheless
   ProofScene scene_;
   std::vector<Open> open_;
 };

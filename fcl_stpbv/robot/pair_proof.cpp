@@ -77,10 +77,10 @@ class Prover {
   }
 
  private:
-  // The distances in the box's middle.
+  // Computes the distances at the box's middle.
   void ask(const JointBox& box) {
     const Eigen::VectorXd middle = middleOf(box);
-    // Rounded up: the differences are off by half a unit in the last place of the limits.
+    // Rounded up, because the differences are off by half a unit in the last place of the limits.
     half_ = (box.upper - middle).cwiseMax(middle - box.lower) * (1 + 4 * kEps);
     for (Index k = 0; k < middle.size(); ++k)
       q_[search_.coordinates()[static_cast<std::size_t>(k)]] = middle[k];
@@ -94,9 +94,9 @@ class Prover {
     });
   }
 
-  // Lower bound on the distance all over the box: the cheap one, and where that is not above
-  // `enough` that of planes. Ends with the first pair of bodies that no bound takes above
-  // `enough`; widest_ is the coordinate to cut then.
+  // Lower bound on the distance in the whole box: the cheap bound, or the bound of planes if the cheap one is
+  // not above `enough`. Stops at the first pair of bodies for which no bound is above `enough`. Then widest_
+  // is the coordinate to cut.
   double bound(double enough) {
     const CollisionConstraints& rows = search_.constraints();
     const Eigen::VectorXd share = lipschitz_.cwiseProduct(half_);
@@ -181,13 +181,14 @@ class Prover {
   LinkPair pair_;
   PairSearch search_;
   Eigen::VectorXd q_, lipschitz_;
-  Eigen::VectorXd half_, share_, taken_;  // of the box: half widths, what each coordinate takes from the gap
+  // Of the box: the half widths, and how much each coordinate reduces the gap.
+  Eigen::VectorXd half_, share_, taken_;
   std::vector<BoxJoint> joints_;
   std::vector<const JointModel*> models_;
   PlaneBound bound_;
   BodyPoints first_, second_;
   double distance_ = 0, slack_ = 0;
-  bool leversHold_ = true;  // which they do as far as the joints that slide keep to their limits
+  bool leversHold_ = true;  // whether the levers' bounds hold: only if joints that slide keep to their limits
   int widest_ = 0;
 };
 

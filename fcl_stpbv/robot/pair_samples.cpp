@@ -23,7 +23,7 @@ ConstraintOptions optionsOf(const std::vector<Obstacle>& obstacles) {
   return options;
 }
 
-// Keeps the closest `keep` of the distances noted.
+// Adds a distance to the `keep` closest ones.
 void note(double distance, const Eigen::VectorXd& q, std::size_t keep, PairSamples& pair) {
   auto& closest = pair.closest;
   if (closest.size() == keep && distance >= closest.back().first) return;
@@ -66,7 +66,7 @@ std::vector<PairSamples> PairSampler::sample(int count, std::uint64_t seed, doub
                                              const std::function<void(int)>& progress) {
   std::vector<PairSamples> found(static_cast<std::size_t>(least_.size()));
   std::mt19937_64 random(seed);
-  constexpr int kBlock = 512;  // a few pieces of a batch for each thread, and little memory
+  constexpr int kBlock = 512;  // gives each thread a few pieces of a batch, and needs little memory
   Eigen::MatrixXd q(kinematics_->size(), kBlock), rows(constraints_.rows(), kBlock);
   for (int done = 0; done < count && !found.empty(); done += kBlock) {
     progress(done);

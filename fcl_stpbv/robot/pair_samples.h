@@ -12,13 +12,13 @@
 
 namespace fcl_stpbv::detail {
 
-/// What the samples said about one pair.
+/// The samples' results for one pair.
 struct PairSamples {
   int samples = 0, collisions = 0;
   std::vector<std::pair<double, Eigen::VectorXd>>
-      closest;               ///< the closest ones with their distances, closest first
-  double largest = 0;        ///< (m)
-  Eigen::VectorXd farthest;  ///< where that was
+      closest;               ///< the closest configurations with their distances, closest first
+  double largest = 0;        ///< largest distance (m)
+  Eigen::VectorXd farthest;  ///< configuration of `largest`
 };
 
 /// Distances of many pairs of links at once.
@@ -30,8 +30,8 @@ class PairSampler {
   /// Least distance over the bodies of each pair (m).
   const Eigen::VectorXd& distances(const Eigen::VectorXd& q);
 
-  /// Random configurations, the same for any number of threads; the `keep` closest
-  /// of each pair are kept, at least one.
+  /// Samples random configurations, the same for any number of threads. The `keep` closest of each pair are
+  /// kept, at least one.
   std::vector<PairSamples> sample(int count, std::uint64_t seed, double margin, int keep,
                                   const std::function<void(int)>& progress);
 
@@ -40,7 +40,7 @@ class PairSampler {
 
   std::shared_ptr<const Kinematics> kinematics_;
   SearchRoom room_;
-  std::vector<Eigen::Index> pairOf_;  // of each row
+  std::vector<Eigen::Index> pairOf_;  // index of the pair of each row
   CollisionConstraints constraints_;
   ConstraintsBatch batch_;
   Eigen::VectorXd rows_, least_;

@@ -50,9 +50,9 @@ PairSearch::PairSearch(std::shared_ptr<const Kinematics> kinematics,
   coordinates_.assign(constraints_.columnIndices().begin(), constraints_.columnIndices().begin() + rows[1]);
 }
 
-// A turning joint moves a body's point by at most its distance from the axis; the moment of the normal's line
-// about the axis is the same taken at either witness point, so the nearer link counts. That distance is at
-// most the way along the links plus the body's reach. An obstacle is fixed to the root link.
+// A turning joint moves a body's point by at most its distance from the axis. The moment of the normal's line
+// about the axis is the same at both witness points, so the link with the smaller distance can be used. That
+// distance is at most the way along the links plus the body's reach. An obstacle is fixed to the root link.
 void PairSearch::boundSlopes(int link1, double reach1, int link2, double reach2) {
   const RobotModel& robot = kinematics_->robot();
   const JointPath joints = jointPath(robot, link1, link2);
@@ -69,7 +69,7 @@ void PairSearch::boundSlopes(int link1, double reach1, int link2, double reach2)
   for (const Kinematics::Motion& motion : kinematics_->motions())  // a moving base has no limits
     for (std::size_t k = 0; k < coordinates_.size(); ++k)
       if (motion.joint < 0 && motion.coordinate == coordinates_[k]) lipschitz_[k] = kInfinity;
-  double before = 0;  // from link1 to this part
+  double before = 0;  // length of the way from link1 to this joint
   for (std::size_t i = 0; i < path.size(); ++i) {
     const bool on1 = i < joints.up;  // the joint's child is then on the side of link1
     const JointModel& joint = robot.joints[at(path[i].joint)];
@@ -108,12 +108,12 @@ double PairSearch::distanceAndGradient(const Eigen::VectorXd& q) {
   return least;
 }
 
-// Projected steps along the gradient, `sign` -1 downhill and 1 uphill. A step is measured in a unit for each
-// coordinate (SearchRoom), so that a step is as large as the robot.
+// Projected steps along the gradient; `sign` is -1 for downhill and 1 for uphill. Each coordinate has its own
+// unit (SearchRoom), so that steps fit the robot's size.
 template <class Arrived>
 double PairSearch::follow(Eigen::VectorXd& q, double sign, Arrived arrived) {
   constexpr int kSteps = 200;
-  const double enough = 1e-6 * scale_;  // m; steps that gain less than this have arrived
+  const double enough = 1e-6 * scale_;  // m; the search has arrived when a step gains less
   double step = 0.1, d = distanceAndGradient(q);
   for (int i = 0; i < kSteps && !arrived(d); ++i) {
     const Eigen::VectorXd slope = sign * gradient_.cwiseProduct(unit_);
@@ -125,7 +125,7 @@ double PairSearch::follow(Eigen::VectorXd& q, double sign, Arrived arrived) {
                                        .cwiseMin(kinematics_->upper());
       const double there = distanceAndGradient(next);
       const double promised = slope.dot((next - q).cwiseQuotient(unit_));
-      if (promised <= 0) return d;  // held by the limits
+      if (promised <= 0) return d;  // the limits stop every coordinate
       const double gain = sign * (there - d);
       if (gain > 1e-4 * promised) {
         better = true;

@@ -15,7 +15,7 @@ class PairSearch {
  public:
   PairSearch(std::shared_ptr<const Kinematics> kinematics, std::shared_ptr<const RobotGeometry> geometry,
              int link1, int link2);
-  /// A link and something that stands still.
+  /// A link and a static obstacle.
   PairSearch(std::shared_ptr<const Kinematics> kinematics, std::shared_ptr<const RobotGeometry> geometry,
              int link, const Obstacle& obstacle);
 
@@ -26,17 +26,17 @@ class PairSearch {
   /// falls. Returns the distance reached; q becomes that configuration.
   double descend(Eigen::VectorXd& q, double margin);
 
-  /// The same uphill, until the distance exceeds `margin` or grows no more.
+  /// The same uphill, until the distance exceeds `margin` or no longer grows.
   double climb(Eigen::VectorXd& q, double margin);
 
-  /// Bound on the change of the distance per unit of each coordinate between the
-  /// links, infinite where there is none.
+  /// Bound on the change of the distance per unit of each coordinate between the links; infinite if there is
+  /// no bound.
   const std::vector<double>& lipschitz() const { return lipschitz_; }
   const std::vector<int>& coordinates() const { return coordinates_; }
 
-  /// With the answers of the last distance asked for.
+  /// The constraints, with the answers of the last distance().
   const CollisionConstraints& constraints() const { return constraints_; }
-  /// Makes the next distance independent of those before, to the last bit.
+  /// Makes the next distance independent of earlier ones, to the last bit.
   void forget() { constraints_.forget(); }
 
  private:
@@ -53,7 +53,7 @@ class PairSearch {
   std::vector<int> coordinates_;
   std::vector<double> lipschitz_;
   Eigen::VectorXd d_, values_, gradient_;
-  Eigen::VectorXd unit_;  // of a step, and the scale of distances: SearchRoom's
+  Eigen::VectorXd unit_;  // the units of steps (SearchRoom)
   double scale_ = 1;
 };
 

@@ -16,8 +16,8 @@ using namespace detail;
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-// After a larger turn the plane is no longer useful, and a search from the centres takes fewer steps than one
-// from the plane.
+// After a larger turn the plane is of little use, and a search that starts from the centres takes fewer steps
+// than one that starts from the plane.
 bool CollisionChecker::Impl::isRecent(const KeptPair& pair) const {
   constexpr double kTurn2 = 0.01;  // (0.1 rad)^2
   return pair.kept && turnSince(pair.plane, state_.link[bodies_[pair.a].frame],
@@ -66,7 +66,7 @@ bool CollisionChecker::Impl::searchSaysClear(KeptPair& pair) {
   return isFartherThan(margin, *a.geometry, one.pose, *b.geometry, other.pose, {&pair.cache, nullptr});
 }
 
-// Along the normal that the pair's cache holds now.
+// Stores the plane along the normal that the pair's cache contains now.
 void CollisionChecker::Impl::keepPlane(KeptPair& pair) const {
   const PlacedBody &a = bodies_[pair.a], &b = bodies_[pair.b];
   const double length = pair.cache.normal.norm();

@@ -1,6 +1,6 @@
-// The gap between two bodies over a box of joint values (docs/proofs.md): tries planes fixed to the links for
-// which the bound at the nearest points is best, starts from the normal of the distance at the middle, and
-// turns it as GJK does, towards the shortest difference of points that the bodies can reach. push_bound.h
+// The gap between two bodies over a box of joint values (docs/proofs.md). It tries planes fixed to the links
+// for which the bound at the nearest points is best. It starts with the normal of the distance at the middle,
+// and turns it as GJK does, towards the shortest difference of points that the bodies can reach. push_bound.h
 // bounds how far the joints move a body towards the plane.
 #include "fcl_stpbv/robot/plane_bound.h"
 
@@ -14,11 +14,11 @@ namespace {
 
 using Eigen::Vector3d;
 
-// Links that the plane is tried on, and steps that improve its normal.
+// Number of links that the plane is tried on, and of steps that improve its normal.
 constexpr std::size_t kReferences = 2;
 constexpr int kPlaneSteps = 4;
 
-// Of a longer way, links whose loss is bounded: those that lose least in first order.
+// Number of links of a longer chain for which the loss is bounded: those that lose least in first order.
 constexpr std::size_t kRanked = 25;
 
 // How a joint moves the point x per unit of its value.
@@ -26,7 +26,7 @@ Vector3d motion(const BoxJoint& joint, const Vector3d& x) {
   return joint.slides ? joint.axis : Vector3d(joint.axis.cross(x - joint.origin));
 }
 
-// The point farthest along n that the joints bring the body to, in first order.
+// The point farthest along n to which the joints bring the body, in first order.
 Vector3d farthest(const Vector3d& n, const BodySide& side) {
   double best = -kInfinity;
   Vector3d point = Vector3d::Zero();
@@ -61,7 +61,7 @@ void PlaneBound::set(const std::vector<BoxJoint>& joints, const BodyPoints& firs
   second_.body = &second;
 }
 
-// The joints before the plane's link, seen from there, lead to the first body, the others to the second.
+// Seen from the plane's link, the joints before it lead to the first body, the others to the second.
 void PlaneBound::fixTo(std::size_t reference) {
   first_.joints.assign(joints_.rend() - static_cast<std::ptrdiff_t>(reference), joints_.rend());
   second_.joints.assign(joints_.begin() + static_cast<std::ptrdiff_t>(reference), joints_.end());
@@ -122,7 +122,8 @@ double PlaneBound::gap(const Vector3d& normal, const std::array<Vector3d, 2>& ne
   rank(normal, nearest);
   for (const auto& [unused, reference] : order_) {
     tryOut(normal, reference);
-    // Towards the shortest difference of two points that the bodies are brought to, as GJK does.
+    // Turn the normal towards the shortest difference of two points to which the bodies are brought, as GJK
+    // does.
     Vector3d shortest = normal * std::max(1e-6, normal.dot(nearest[1] - nearest[0]));
     for (int step = 0; step < kPlaneSteps && best <= enough; ++step) {
       const Vector3d n = shortest.normalized();

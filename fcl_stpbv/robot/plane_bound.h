@@ -11,10 +11,11 @@
 
 namespace fcl_stpbv::detail {
 
-/// One box at a time. Allocates nothing once it has seen its largest bodies and longest way.
+/// Handles one box at a time. Allocates nothing once it has seen its largest bodies and its longest chain.
 class PlaneBound {
  public:
-  /// The joints in order, and the bodies in the world at the middle of the box; these are kept by reference.
+  /// Sets the joints in order, and the bodies in the world at the middle of the box. The bodies are stored
+  /// as references.
   void set(const std::vector<BoxJoint>& joints, const BodyPoints& first, const BodyPoints& second);
 
   /// Lower bound on the gap (m) wherever the joints are in the box. Starts from the unit normal (from the

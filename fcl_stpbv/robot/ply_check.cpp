@@ -18,12 +18,12 @@ namespace {
 struct PlyType {
   std::size_t bytes = 0;
   bool isWhole = false;
-  long least = 0, most = 0;  // of a whole number
+  long least = 0, most = 0;  // range of a whole number
 };
 
 struct Property {
   std::string name;
-  PlyType count;  // of a list, without bytes for a single value
+  PlyType count;  // type of a list's count; without bytes for a single value
   PlyType value;
 };
 
@@ -76,15 +76,16 @@ Element readElement(const MeshWords& words, const MeshLines& lines) {
   long count = 0;
   if (words.size() < 3 || !readMeshIndex(words[2], count))
     lines.damaged("an element must have a name and a number, from 0 to 2147483647");
-  // assimp takes an unknown element's name for its count: of digits, it is one without a bound.
+  // assimp takes an unknown element's name for its count. If the name consists of digits, that count has no
+  // bound.
   if (std::isdigit(static_cast<unsigned char>(words[1][0])))
     lines.refuse("the element '" + std::string(words[1]) +
                  "', expected a name that is no number, such as vertex");
   return {std::string(words[1]), static_cast<std::size_t>(count), {}};
 }
 
-// assimp takes the format from the second line, and ends an element at the first line that is none of its
-// properties.
+// assimp takes the format from the second line. It ends an element at the first line that is not one of the
+// element's properties.
 Header readHeader(MeshLines& lines) {
   Header header;
   if (!lines.next() || wordsOf(lines.text()) != MeshWords{"ply"}) lines.refuse("expected the line 'ply'");
@@ -110,8 +111,9 @@ Header readHeader(MeshLines& lines) {
   }
 }
 
-// assimp puts 0 for a coordinate that it does not find, and leaves out the faces whose vertices it does not,
-// all but the last of several elements or properties of one name, and all of a strip but its first triangle.
+// assimp uses 0 for a coordinate that it does not find. It leaves out faces whose vertices it does not find,
+// all but the last of several elements or properties with the same name, and all triangles of a strip but the
+// first.
 void checkNames(const Header& header, const std::string& name) {
   const auto require = [&](const Element& element, bool isList, std::initializer_list<const char*> names) {
     const auto fits = [&](const Property& property) {
@@ -176,7 +178,7 @@ class PlyBody {
     std::size_t value = 0;
     for (std::size_t i = 0; i < size; ++i)
       value = value << 8 | static_cast<unsigned char>(all[big_ ? i : size - 1 - i]);
-    // A wild count fails in skip(); this keeps its product with the values' size from wrapping around.
+    // An absurd count fails in skip(). The limit keeps its product with the values' size from overflowing.
     return std::min(value, std::numeric_limits<std::size_t>::max() / 16);
   }
 
@@ -185,7 +187,7 @@ class PlyBody {
   const std::string& name_;
 };
 
-// Of a number beyond its type assimp makes another one, or two.
+// assimp reads a number that does not fit its type as another number, or as two.
 bool isWhole(std::string_view word, const PlyType& type) {
   long value = 0;
   const auto result = std::from_chars(word.data(), word.data() + word.size(), value);
@@ -219,7 +221,7 @@ class PlyLines {
   }
 
  private:
-  // assimp passes over a single empty line.
+  // assimp skips one empty line.
   void nextLine(const Element& element) {
     bool more = lines_.next();
     if (more && lines_.text().empty() && lines_.end() == "\n") more = lines_.next();
@@ -252,7 +254,7 @@ class PlyLines {
 
   MeshLines& lines_;
   MeshWords words_;
-  std::size_t at_ = 0;  // the next of the words
+  std::size_t at_ = 0;  // index of the next word
 };
 
 }  // namespace
@@ -268,7 +270,7 @@ void checkPly(std::string_view text, const std::string& name) {
     body.end();
   } else {
     if (lines.end() == "\r") lines.refuse("the line must end by a line feed before values in binary");
-    // assimp passes over all line feeds behind this one, and would read the values from other bytes.
+    // assimp skips all line feeds after this one, and would then read the values from other bytes.
     if (lines.end() == "\n" && lines.rest().substr(0, 1) == "\n")
       lines.refuse(
           "the values in binary begin with a byte that is not read right, 10 as of a line feed; export the "

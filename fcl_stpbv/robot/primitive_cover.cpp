@@ -20,15 +20,15 @@ namespace {
 using Eigen::Vector3d;
 using Points = std::vector<Vector3d>;
 
-// The primitive lies in the hull of `points` with a ball of radius `margin` around
-// each, which exceeds it by at most `beyond`.
+// The primitive lies in the union of balls of radius `margin` around all points of the hull of `points`. This
+// union exceeds it by at most `beyond`.
 struct Skeleton {
   Points points;
   double margin = 0, beyond = 0;
 };
 
-// Corners of a regular polygon around a circle, which touches the middles of its sides: every point of the
-// circle is a convex combination of two of them.
+// Adds the corners of a regular polygon around a circle, which touches the middles of its sides. So every
+// point of the circle is a convex combination of two corners.
 void addPolygon(double radius, double r, double z, Skeleton& skeleton) {
   constexpr int kFewest = 8, kMost = 64;
   constexpr double kPartOfMargin = 0.25;
@@ -81,13 +81,13 @@ PrimitiveCover primitiveCover(const fcl::CollisionGeometryd& primitive, const St
   if (skeleton.points.empty()) return {};
   StpBvOptions own{skeleton.margin > 0 ? skeleton.margin : radii.r, radii.R};
   const double ball = StpBv::smallestR(skeleton.points, 0);
-  // Below twice the smallest R another R is fitted: near the smallest R the surface is almost a ball, for any
-  // primitive.
+  // If R is below twice the smallest R, another R is fitted, because near the smallest R the surface is
+  // almost a ball for any primitive.
   if (own.R < 2 * (own.r + ball)) own.R = std::max(2 * own.r, fittedR(ball, own.r));
   PrimitiveCover cover;
   cover.volume = StpBv::build(skeleton.points, own);
   cover.excess = overCover(*cover.volume, skeleton.points);
-  // Support functions add up: that of the rounded skeleton is the skeleton's plus the margin.
+  // Support functions add up: that of the rounded skeleton is that of the skeleton plus the margin.
   cover.excess.max = std::max(0.0, cover.excess.max - skeleton.margin) + skeleton.beyond;
   cover.excess.mean = std::max(0.0, cover.excess.mean - skeleton.margin);
   return cover;

@@ -7,10 +7,10 @@
 
 namespace fcl_stpbv::detail {
 
-/// A volume around a primitive, and what it exceeds the primitive by (m):
-/// largest is never less than the truth.
+/// A volume around a primitive, and how much it exceeds the primitive (m). `excess.max` is never less than
+/// the true value.
 struct PrimitiveCover {
-  StpBv::Ptr volume;  ///< null for a geometry that has none
+  StpBv::Ptr volume;  ///< null for a geometry without a cover
   OverCover excess{0, 0};
 };
 

@@ -1,11 +1,13 @@
 // Bounds how far the joints push one point along a normal, with interval bounds on products of exponentials
 // (docs/proofs.md).
-// 1. With the plane's link at rest, a point x of a body goes to E_1 E_2 ... E_m x, E_i the motion about
-//    joint i's axis in the middle of the box, the outermost one m applied first: all axes and the normal n
-//    stay those of the middle.
-// 2. One turn by t moves a point y, r = y - origin, along n by sin(t) (n x a).r - (1 - cos(t)) (n.r -
-//    (n.a)(a.r)) (Rodrigues). push() bounds this over the box, to second order in the sines exactly, plus
-//    what is left of higher order.
+// 1. If the plane's link is at rest, a point x of a body goes to E_1 E_2 ... E_m x. E_i is the motion about
+//    joint i's axis in the middle of the box. The motion of the outermost joint m is applied first, so all
+//    axes
+//    and the normal n are those of the middle.
+// 2. One turn by t moves a point y, with r = y - origin, along n by
+//    sin(t) (n x a).r - (1 - cos(t)) (n.r - (n.a)(a.r)) (Rodrigues). push() bounds this over the box. The
+//    terms up
+//    to second order in the sines are exact; the terms of higher order are bounded.
 #include "fcl_stpbv/robot/push_bound.h"
 
 #include <algorithm>
@@ -18,14 +20,16 @@ namespace {
 
 using Eigen::Vector3d;
 
-// Weight of the linear part of a push when the coordinate to cut is chosen: a cut halves that part, while the
-// other parts fall to a quarter.
+// Weight of the linear part of a push when the coordinate to cut is chosen. A cut halves the linear part,
+// while the other parts fall to a quarter.
 constexpr double kLinearShare = 0.5;
 
-// Joints whose direction is tried both ways where it is not plain which pushes most: 2^8 corners at most.
+// Number of joints whose two directions are both tried, if it is not clear which one pushes most: at most 2^8
+// corners.
 constexpr int kCorners = 8, kCornersOfMany = 4;
 
-// Joints up to which the third order is weighed joint by joint, which takes the cube of their number.
+// Largest number of joints for which the third order is computed joint by joint, which takes the cube of
+// their number.
 constexpr std::size_t kThirdOrder = 24;
 
 bool hasThirdOrder(std::size_t joints) { return joints <= kThirdOrder; }
@@ -83,7 +87,7 @@ void PushBound::prepare(const Vector3d& n, const BodySide& side) {
   }
 }
 
-// Most that the joints push the point x along n; share_ gets each joint's part.
+// Upper bound on how far the joints push the point x along n; share_ receives each joint's part.
 double PushBound::push(const Vector3d& n, const BodySide& side, const Vector3d& x) {
   const std::size_t m = side.joints.size();
   double fromOuter = -1;
@@ -139,8 +143,9 @@ double PushBound::push(const Vector3d& n, const BodySide& side, const Vector3d& 
   return shared_ ? std::min(sum, uncapped - together(n, side, x)) : sum;
 }
 
-// Most that joint l moves x, once the joints further out have, in a direction whose cross product with the
-// joint's axis is `turned`, `size` long; for a joint that slides, `size` is the direction's part along it.
+// Upper bound on how far joint l moves x along a direction after the joints further out have moved. `turned`
+// is the direction's cross product with the joint's axis, and `size` its length. For a joint that slides,
+// `size` is the direction's part along the axis.
 double PushBound::along(const BodySide& side, std::size_t l, const Vector3d& turned, double size,
                         const Vector3d& x) const {
   const OutwardJoint& o = side.joints[l];
@@ -150,8 +155,8 @@ double PushBound::along(const BodySide& side, std::size_t l, const Vector3d& tur
   return std::min(exact, size * o.chord * reach_[l]);
 }
 
-// How joint i pushes differently because joint l, further out, has moved the point x: product_ gets what is
-// proportional to the sines of both, and all else is at most what is returned.
+// How much the push of joint i changes because joint l, further out, has moved the point x. product_ receives
+// the part that is proportional to the sines of both. The result bounds all other parts.
 double PushBound::couple(const BodySide& side, std::size_t i, std::size_t l, const Vector3d& x) {
   const OutwardJoint &o = side.joints[i], &outer = side.joints[l];
   const std::size_t m = side.joints.size(), at = i * m + l;
@@ -174,9 +179,10 @@ double PushBound::couple(const BodySide& side, std::size_t i, std::size_t l, con
   return most;
 }
 
-// Most of the sum over joints k from i on of (slope s_k + the sum over l > k of product s_k s_l), each s from
-// -1 to 1: it is linear in each s, so it is largest at a corner. The slopes stand in slope_ from i m on.
-// Where a slope outweighs its products, s has its sign; of the others, `tries` are tried both ways.
+// Maximum of the sum over joints k from i on of (slope s_k + the sum over l > k of product s_k s_l), with
+// each s from -1 to 1. It is linear in each s, so it is largest at a corner. The slopes are in slope_ from i
+// m on. If a slope outweighs its products, s has its sign. For up to `tries` of the other joints both signs
+// are tried. The remaining joints get a bound.
 double PushBound::mostAtCorners(std::size_t i, std::size_t m, int tries) {
   if (i == m) return 0;
   const double* slope = &slope_[i * m];

@@ -11,16 +11,16 @@ namespace fcl_stpbv::detail {
 
 /// A joint on the way from the first body to the second, as it is at the middle of the box.
 struct BoxJoint {
-  bool slides = false;              ///< else it turns
-  bool up = false;                  ///< the first body is on the child's side
-  int slot = 0;                     ///< which of the box's coordinates moves it
-  double rate = 1;                  ///< its motion per unit of that coordinate: not 0, 1 unless it mimics
-  double half = 0;                  ///< most that it moves from the middle (rad or m)
-  Eigen::Vector3d axis{0, 0, 1};    ///< unit, world
-  Eigen::Vector3d origin{0, 0, 0};  ///< a point of the axis
+  bool slides = false;              ///< whether it slides; otherwise it turns
+  bool up = false;                  ///< whether the first body is on the child's side
+  int slot = 0;                     ///< index of the box's coordinate that moves it
+  double rate = 1;                  ///< its motion per unit of that coordinate: not 0, and 1 unless it mimics
+  double half = 0;                  ///< largest motion from the middle (rad or m)
+  Eigen::Vector3d axis{0, 0, 1};    ///< unit vector (world)
+  Eigen::Vector3d origin{0, 0, 0};  ///< a point on the axis
 };
 
-/// A joint with what half its range makes of it: sin, 1 - cos, 2 sin(half / 2).
+/// A joint, and functions of half its range: sin, 1 - cos, 2 sin(half / 2).
 struct OutwardJoint {
   BoxJoint joint;
   double sine, bulge, chord;
@@ -33,16 +33,17 @@ struct BodySide {
   const BodyPoints* body;
 };
 
-/// One direction and one body at a time. Allocates nothing once it has seen its largest body and longest way.
+/// Handles one direction and one body at a time. Allocates nothing once it has seen its largest body and its
+/// longest chain.
 class PushBound {
  public:
   /// Whether one coordinate moves several of the joints.
   void setShared(bool shared) { shared_ = shared; }
 
-  /// Takes the unit direction n, as it is at the plane's link, for the pushes that are asked next.
+  /// Sets the unit direction n, as it is at the plane's link, for the next calls of push().
   void prepare(const Eigen::Vector3d& n, const BodySide& side);
 
-  /// Most that the joints push the point x along n (m).
+  /// Upper bound on how far the joints push the point x along n (m).
   double push(const Eigen::Vector3d& n, const BodySide& side, const Eigen::Vector3d& x);
 
   /// Upper bound on the support function of the body along n (m). Adds to `shares`, by coordinate, the push
@@ -60,15 +61,17 @@ class PushBound {
   std::size_t foremost(const Eigen::Vector3d& n, const BodySide& side) const;
 
   bool shared_ = false;
-  // Of the side at hand, for the normal n: n x axis of each joint, that crossed with the axis of each joint
-  // further out, and again; n across each axis, and that crossed with the axes further out; their lengths;
-  // the way from the outermost turning joint back to each one.
+  // For the present side and the normal n: n x axis for each joint; its cross products with the axes of
+  // joints further out; the cross products of these with axes further out. Then n's part across each axis,
+  // and its cross products with the axes further out. Then the lengths of these vectors, and the way from the
+  // outermost turning joint back to each joint.
   std::vector<Eigen::Vector3d> turned_, coupled_, tripled_, flat_, bulged_;
   std::vector<double> tilt_, coupling_, tripling_, bulging_, way_;
-  // Of a point: its distance from each axis, the same once the joints further out have moved, how far those
-  // move it, and what each joint pushes.
+  // For a point: its distance from each axis; the same after the joints further out have moved; how far those
+  // move the point; and each joint's push.
   std::vector<double> lever_, reach_, moved_, share_, bestShare_;
-  // What it is pushed in first order by each joint, and in second order by each two (mostAtCorners()).
+  // For a point: the push in first order of each joint, and in second order of each two joints
+  // (mostAtCorners()).
   std::vector<double> slope_, product_;
 };
 

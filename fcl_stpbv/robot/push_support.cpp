@@ -9,7 +9,7 @@ namespace fcl_stpbv::detail {
 
 using Eigen::Vector3d;
 
-// Most that the joints push any point of the body along the normal: the chord of each turn.
+// Upper bound on how far the joints push any point of the body along the normal, from the chord of each turn.
 double PushBound::mostPush(const BodySide& side) const {
   const std::size_t m = side.joints.size();
   double sum = 0, moved = 0, fromOuter = -1;
@@ -38,7 +38,7 @@ double PushBound::mostTurned(const BodySide& side) const {
   return turned;
 }
 
-// The point that gets farthest along n in first order.
+// The point that gets farthest along n, in first order.
 std::size_t PushBound::foremost(const Vector3d& n, const BodySide& side) const {
   const std::vector<Vector3d>& points = side.body->points;
   std::size_t found = 0;

@@ -16,8 +16,8 @@
 namespace fcl_stpbv::detail {
 
 /// Opens only the mesh and, for glTF, the regular files with its vertices, beside the mesh or in folders
-/// below. No other files that a mesh may refer to, no materials, no pipes or devices. Raises the limits of
-/// the child process in proportion to the files' sizes.
+/// below it. It opens no other files that a mesh may refer to, no materials, pipes or devices. It raises the
+/// limits of the child process in proportion to the files' sizes.
 class ReadableFiles : public Assimp::DefaultIOSystem {
  public:
   ReadableFiles(const std::string& mesh, ChildLimits& limits) : mesh_(mesh), limits_(limits) {}
@@ -30,7 +30,7 @@ class ReadableFiles : public Assimp::DefaultIOSystem {
     return DefaultIOSystem::Open(file.c_str(), mode);
   }
 
-  /// A file that the mesh names, where assimp looks for it.
+  /// A file that the mesh names, in the place where assimp looks for it.
   std::optional<std::string> part(const std::string& name) {
     const std::string file = found(folder() + name);
     if (file.empty()) return std::nullopt;
@@ -41,8 +41,8 @@ class ReadableFiles : public Assimp::DefaultIOSystem {
  private:
   std::string folder() const { return mesh_.substr(0, mesh_.rfind('/') + 1); }
 
-  // The file that a path means: as it is written, else with %20 and the like as characters. "" where there is
-  // none that may be read.
+  // The file that a path means: as it is written, else with %20 and the like decoded. "" if there is no such
+  // file or it may not be read.
   std::string found(const std::string& path) const {
     if (mayRead(path)) return path;
     const std::size_t start = path.compare(0, folder().size(), folder()) == 0 ? folder().size() : 0;
@@ -65,7 +65,7 @@ class ReadableFiles : public Assimp::DefaultIOSystem {
     if (lowerExtension(mesh_) != ".gltf") return false;
     std::error_code ignored;
     const fs::path part = fs::canonical(path, ignored);
-    // Of a mesh that is a link also what is beside its target.
+    // If the mesh is a symbolic link, files beside its target are allowed too.
     for (const fs::path& folder : {fs::canonical(fs::absolute(mesh_, ignored).parent_path(), ignored),
                                    fs::canonical(mesh_, ignored).parent_path()}) {
       const fs::path inside = part.lexically_relative(folder);

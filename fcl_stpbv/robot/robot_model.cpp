@@ -90,7 +90,7 @@ void readLimits(const urdf::Joint& joint, JointModel& model) {
     throw Error("its limits must be finite, and the lower one not above the upper one");
   if (model.lower > kLargestValue || model.upper < -kLargestValue)
     throw Error("its limits leave nothing between -1e6 and 1e6");
-  model.lower = std::max(model.lower, -kLargestValue);  // 1e16 and the like stand for no limit
+  model.lower = std::max(model.lower, -kLargestValue);  // limits such as 1e16 stand for no limit
   model.upper = std::min(model.upper, kLargestValue);
 }
 
@@ -128,7 +128,7 @@ ReadJoint readJoint(const XMLElement& element, const UrdfTree& tree) {
   return joint;
 }
 
-// @throws Error without the joint's place.
+// @throws Error without naming the joint's place.
 void setMimic(const Mimic& end, int joint, RobotModel& robot) {
   JointModel& model = robot.joints[static_cast<std::size_t>(joint)];
   if (end.joint == joint || model.type == JointType::fixed) return;
@@ -169,7 +169,7 @@ void readJoints(const UrdfTree& tree, RobotModel& robot, LoadFaults& faults) {
   widenFollowed(robot.joints);
 }
 
-// The text counted on its own: no element may have gone missing on the way into the model.
+// Counts the text's elements independently, to make sure that every element is in the model.
 void checkAllThere(int collisions, const RobotModel& robot, std::size_t refused) {
   std::size_t kept = refused;
   for (const LinkModel& link : robot.links)

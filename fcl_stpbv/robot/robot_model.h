@@ -93,7 +93,7 @@ struct ShapeModel {
 struct LinkModel {
   std::string name;                   ///< as the URDF names it
   std::vector<ShapeModel> collision;  ///< in the order of the file
-  std::vector<ShapeModel> visual;     ///< likewise
+  std::vector<ShapeModel> visual;     ///< in the order of the file
   int parentJoint = -1;               ///< index of the joint to its parent; -1 for the root
   double mass = 0;                    ///< kg; 0 without an inertial element, or with a wrong one
   std::string massFault;  ///< what is wrong with the inertial element, and where; "" if it is sound
@@ -124,12 +124,12 @@ struct RobotModel {
 /// parents, a mimic joint that follows itself, a lower limit above the upper one, numbers that are not
 /// finite, names that look misspelt.
 RobotModel loadUrdf(const std::string& path);
-/// The same, but faults are added to `faults`, and the caller decides. Shapes that cannot be read are then
+/// loadUrdf() that adds faults to `faults`, and the caller decides. Shapes that cannot be read are then
 /// missing in the model. If there are errors, use the model only to search for further faults.
 RobotModel loadUrdf(const std::string& path, LoadFaults& faults);
-/// The same from a text; `path` stands for it in messages.
+/// loadUrdf() from a text; `path` stands for the file in messages.
 RobotModel parseUrdf(const std::string& text, const std::string& path);
-/// The same, but faults are added to `faults`, and the caller decides.
+/// parseUrdf() that adds faults to `faults`, and the caller decides.
 RobotModel parseUrdf(const std::string& text, const std::string& path, LoadFaults& faults);
 
 }  // namespace fcl_stpbv

@@ -1,4 +1,4 @@
-// modelForScene(): the needs are checked, then met as far as they can be (detail_choice.h).
+// modelForScene(): checks the needs, then meets as many of them as possible (detail_choice.h).
 #include "fcl_stpbv/robot/scene_model.h"
 
 #include <algorithm>
@@ -39,7 +39,7 @@ std::vector<std::shared_ptr<const RobotGeometry>> loadLevels(const RobotModel& r
                                                              const GeometryOptions& options,
                                                              const std::vector<double>& budgets) {
   for (std::size_t i = 0; i < budgets.size(); ++i) {
-    // 0 would stand for any over-cover: GeometryOptions::overCoverBudget.
+    // A budget of 0 is refused, because GeometryOptions::overCoverBudget takes 0 for no limit.
     if (!(budgets[i] > 0))
       throw Error("loadLevels: got a budget of " + toDecimal(budgets[i]) + "; each must be above r");
     if (i > 0 && !(budgets[i] < budgets[i - 1]))

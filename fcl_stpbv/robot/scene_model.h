@@ -19,7 +19,7 @@ namespace fcl_stpbv {
 /// apart than `clearance`. If the distance of the exact shapes is at most `clearance` plus the r of both
 /// volumes, no model can meet it, and none is refined for it.
 struct SceneNeed {
-  LinkPair pair;         ///< the two
+  LinkPair pair;         ///< the two links, or the link and the obstacle
   Eigen::VectorXd q;     ///< the configuration (rad, m)
   double clearance = 0;  ///< distance that the pair must exceed (m)
 };

@@ -1,5 +1,5 @@
 // Adds up lengths along the tree of joints. This bounds the size of the robot in every configuration, except
-// for joints that slide much farther than that size: they stand still where it is added up.
+// for joints that slide much farther than that size. In the sum, such joints stay where they are.
 #include "fcl_stpbv/robot/search_room.h"
 
 #include <algorithm>
@@ -13,19 +13,20 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-constexpr double kFar = 100;  // times the room: what slides farther is searched within the room
+constexpr double kFar = 100;  // times the room: joints that slide farther are searched within the room
 
-// Of a joint that slides, where the coordinate that it follows is up to `most` from zero.
+// Largest distance that a sliding joint moves from its origin, while the coordinate that it follows is at
+// most `most` from zero.
 double slideOf(const JointModel& joint, double most) {
   if (joint.type != JointType::prismatic) return 0;
   return joint.mimic ? std::abs(joint.mimic->offset) + std::abs(joint.mimic->multiplier) * most : most;
 }
 
-struct Moved {          // by one coordinate
-  double slides = 0;    // m per unit, of the joint that slides most
+struct Moved {          // what one coordinate moves
+  double slides = 0;    // m per unit, for the joint that slides most
   bool turns = false;   // whether any joint turns
-  double most = 0;      // how far it is from zero in the size of the robot
-  bool stands = false;  // where that size is added up
+  double most = 0;      // its largest distance from zero, as it counts for the size of the robot
+  bool stands = false;  // whether it stays at rest where that size is added up
 };
 
 std::vector<Moved> movedBy(const Kinematics& kinematics) {
@@ -44,8 +45,8 @@ std::vector<Moved> movedBy(const Kinematics& kinematics) {
   return all;
 }
 
-// Each of two bodies is at most the largest reach from the root's origin while what has no limits is at zero,
-// so they are at most two reaches apart.
+// With coordinates without limits at zero, each of two bodies is at most the largest reach from the root's
+// origin. So the bodies are at most two reaches apart.
 double roomOf(const Kinematics& kinematics, const RobotGeometry& geometry,
               const std::vector<Obstacle>& obstacles, const std::vector<Moved>& moved, double scale) {
   const RobotModel& robot = kinematics.robot();
@@ -53,7 +54,7 @@ double roomOf(const Kinematics& kinematics, const RobotGeometry& geometry,
   for (const Kinematics::Motion& motion : kinematics.motions())
     if (motion.joint >= 0) most[at(motion.joint)] = moved[at(motion.coordinate)].most;
   double reach = 0;
-  std::vector<double> way(robot.links.size(), 0);         // from the root's origin
+  std::vector<double> way(robot.links.size(), 0);         // length from the root's origin to each link
   for (std::size_t l = 0; l < robot.links.size(); ++l) {  // parents first
     const int j = robot.links[l].parentJoint;
     if (j >= 0) {
@@ -111,7 +112,7 @@ SearchRoom searchRoom(const Kinematics& kinematics, const RobotGeometry& geometr
     if (grows) room = roomOf(kinematics, geometry, obstacles, moved, found.scale);
   }
   for (Index i = 0; i < lower.size(); ++i) {
-    constexpr double kSteps = 200;  // of a descent, which lead through the whole range
+    constexpr double kSteps = 200;  // steps of a descent, which together cover the whole range
     const Moved& m = moved[static_cast<std::size_t>(i)];
     if (!std::isfinite(lower[i])) found.lower[i] = -room;
     if (!std::isfinite(upper[i])) found.upper[i] = found.unit[i] = room;
@@ -138,7 +139,7 @@ VectorXd randomConfiguration(const Kinematics& kinematics, const SearchRoom& roo
       upper[i] = std::min(kinematics.upper()[i], middle + factor * (upper[i] - middle));
     }
   }
-  // Without the standard library's distributions, which differ from one to another.
+  // The distributions of the standard library are not used, because they differ between implementations.
   for (Index i = 0; i < q.size(); ++i)
     q[i] = lower[i] + static_cast<double>(random() >> 11) * 0x1p-53 * (upper[i] - lower[i]);
   return q;

@@ -11,14 +11,14 @@
 
 namespace fcl_stpbv::detail {
 
-/// How far a link's bodies reach from its origin (m).
+/// Largest distance of a link's bodies from the link's origin (m).
 double reachOf(const RobotGeometry& geometry, int link);
 
-/// The longest way from the parent's origin to the child's, within the limits (m). Of a planar or floating
-/// joint, which has none, where it stands at zero.
+/// The longest way from the parent's origin to the child's, within the limits (m). For a planar or floating
+/// joint, which has no limits, the way at zero.
 double lengthOf(const RobotModel& robot, int joint);
 
-/// Where each coordinate is searched, and in which steps.
+/// The range in which each coordinate is searched, and the size of its steps.
 struct SearchRoom {
   /// Within the limits. Coordinates that translate without limits (of planar and floating joints and of a
   /// moving base) end at twice as far as the robot and the obstacles reach, at least 1 m, less for tiny
@@ -39,8 +39,8 @@ struct SearchRoom {
 SearchRoom searchRoom(const Kinematics& kinematics, const RobotGeometry& geometry,
                       const std::vector<Obstacle>& obstacles);
 
-/// Uniform within the room. Where limits are wider, one in four configurations is from a room that is larger
-/// by a random power of 2. The same with every compiler.
+/// A configuration that is uniformly distributed in the room. If limits are wider, one in four configurations
+/// is from a room that is larger by a random power of 2. The result is the same with every compiler.
 Eigen::VectorXd randomConfiguration(const Kinematics& kinematics, const SearchRoom& room,
                                     std::mt19937_64& random);
 

@@ -111,8 +111,8 @@ Error namingFile(const std::string& file, const Error& error) {
   return Error(message.find(file) != std::string::npos ? message : file + ": " + message);
 }
 
-// The digest of the file's bytes; for glTF, which may store its vertices in other files, of the mesh's
-// vertices and triangles.
+// The digest of the file's bytes. For glTF, which may store its vertices in other files, it is the digest of
+// the mesh's vertices and triangles.
 std::string meshKey(const std::string& file, const Eigen::Vector3d& scale) {
   std::string key;
   appendVector(key, scale);

@@ -13,44 +13,44 @@
 
 namespace fcl_stpbv::detail {
 
-/// The error with the file's name before its message, unless the message contains the name.
+/// The error, with the file's name before its message unless the message contains it already.
 Error namingFile(const std::string& file, const Error& error);
 
 /// The key of a mesh in the cache (volume_cache.h): a digest of the file's content and of the scale.
 /// @throws Error naming the file.
 std::string meshKey(const std::string& file, const Eigen::Vector3d& scale);
 
-/// The same of a body's mesh, which is read only where nobody has named it yet.
+/// The key of a body's mesh. The file is read only if the key is not known yet.
 std::string meshKey(const Body& body);
 
-/// One shape of one link; of a mesh, its file.
+/// One shape of one link, and the file of a mesh.
 struct ShapeSource {
   int link = -1;
-  int number = 1;  ///< of the link's shapes, from 1
+  int number = 1;  ///< number among the link's shapes, from 1
   const ShapeModel* shape = nullptr;
   std::string file;  ///< "" for a primitive
   std::string key;   ///< meshKey(); "" for a primitive
 
-  /// The mesh's points, scaled; read when first asked for and kept. @throws Error naming the file.
+  /// The mesh's points, scaled. They are read at the first call and kept. @throws Error naming the file.
   const std::vector<Eigen::Vector3d>& points() const;
 
  private:
   mutable std::vector<Eigen::Vector3d> points_;
 };
 
-/// Whether a volume of the link (by name) built from the mesh of this key need not be built again.
+/// Whether the cache has the volume of the link (by name) from the mesh with this key.
 using IsCached = std::function<bool(const std::string& link, const std::string& meshKey)>;
 
 struct ShapeSources {
   std::vector<ShapeSource> shapes;    ///< in the order of the links; they point into the robot's model
-  std::set<int> incomplete;           ///< links that a shape was left out of
-  std::vector<std::string> warnings;  ///< whole sentences, to be told to the user
+  std::set<int> incomplete;           ///< links for which a shape was left out
+  std::vector<std::string> warnings;  ///< whole sentences for the user
 };
 
-/// Finds all meshes of a robot and reads those that are not cached. What is wrong is added to
-/// `faults.shapes`, and the shape is left out. `faults` holds what was wrong with the robot's URDF.
-/// @param visual the visual shapes; they are taken as well, with a warning, where
-/// the robot has no collision shape at all.
+/// Finds all meshes of a robot and reads those that are not cached. Faults are added to `faults.shapes`, and
+/// these shapes are left out. `faults` must contain the faults of the robot's URDF.
+/// @param visual whether to use the visual shapes. If the robot has no collision shape at all, they are used
+/// in any case, with a warning.
 ShapeSources readShapes(const RobotModel& robot, bool visual, const std::vector<std::string>& packagePath,
                         const IsCached& isCached, LoadFaults& faults);
 

@@ -1,6 +1,6 @@
-// Which primitives get a smooth cover, so that every pair has a smooth body: greedy
-// weighted vertex cover (Chvatal 1979).
-// 1. Cover the body with the least excess for each open pair it settles, until none is open.
+// Chooses the primitives that get a smooth cover, so that every pair has a smooth body: greedy weighted
+// vertex cover (Chvatal 1979).
+// 1. Cover the body with the least excess per open pair that it settles, until no pair is open.
 // 2. Remove covers that are no longer needed, the largest excess first.
 #include <algorithm>
 #include <limits>
@@ -17,12 +17,12 @@ namespace {
 
 using namespace detail;
 
-// A body that is not smooth, and those it meets in pairs without a smooth body.
+// A body that is not smooth, and the bodies that it meets in pairs without a smooth body.
 struct FlatBody {
   Body* body;
-  PrimitiveCover cover;  // without a volume where it has to stay flat
+  PrimitiveCover cover;  // without a volume if the body must stay flat
   std::vector<std::size_t> others;
-  std::size_t open = 0;  // of them, those not covered
+  std::size_t open = 0;  // number of these that are not covered
   bool covered = false;
 
   double loss() const { return cover.excess.max; }
@@ -73,7 +73,7 @@ class Choice {
     return node_[index];
   }
 
-  // The body whose cover costs least for each pair it settles; false when there is nothing left to do.
+  // Covers the body whose cover costs least per pair that it settles. @returns false if no pair is open.
   bool coverNext() {
     double least = kInfinity;
     FlatBody* best = nullptr;
@@ -112,7 +112,7 @@ class Choice {
     body.radius = body.volume->enclosingRadius();
   }
 
-  std::vector<std::size_t> node_;  // place in flat_ of each body, the scene's after the robot's
+  std::vector<std::size_t> node_;  // index in flat_ of each body, the scene's after the robot's
   std::vector<FlatBody> flat_;
 };
 

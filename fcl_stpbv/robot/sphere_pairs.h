@@ -1,5 +1,5 @@
-// Finds the pairs of bodies whose bounding spheres do not prove them clear. One array, four pairs at a time
-// (SIMD).
+// Finds the pairs of bodies whose bounding spheres do not prove them clear. One array is processed, four
+// pairs at a time (SIMD).
 #pragma once
 
 #include <cstddef>
@@ -9,24 +9,24 @@
 
 namespace fcl_stpbv::detail {
 
-/// A pair that its spheres do not clear.
+/// A pair that its spheres do not prove clear.
 struct NearPair {
   int pair;
-  double apart2;  ///< of the centres (m^2)
+  double apart2;  ///< squared distance of the centres (m^2)
 };
 
 /// The pairs of a fixed list.
 class SpherePairs {
  public:
-  /// Room for so many pairs; none is set.
+  /// Makes room for this number of pairs. No pair is set yet.
   void resize(std::size_t pairs);
-  /// Spheres `a` and `b` are clear where their centres are farther apart than `reach` (m).
+  /// Sets a pair: spheres `a` and `b` are clear if their centres are farther apart than `reach` (m).
   void set(std::size_t pair, std::size_t a, std::size_t b, double reach);
 
-  /// Looks at all pairs, of centres that are off by up to `slack` together
-  /// (m). What is not finite is not clear.
+  /// Compares all pairs. The two centres of a pair are off by up to `slack` together (m). Values that are not
+  /// finite are not clear.
   void compare(const std::vector<SphereCentre>& centre, double slack);
-  /// Those that are not clear, ascending until the caller sorts them.
+  /// The pairs that are not clear, ascending until the caller sorts them.
   NearPair* begin() { return near_.data(); }
   NearPair* end() { return near_.data() + nearCount_; }
 

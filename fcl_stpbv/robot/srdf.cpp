@@ -1,4 +1,5 @@
-// Reads an SRDF: pairs to leave out, group states, virtual joints; what names no link or joint is a warning.
+// Reads an SRDF: pairs to leave out, group states, virtual joints. Entries that name no link or joint of the
+// robot are warnings.
 #include "fcl_stpbv/robot/srdf.h"
 
 #include <algorithm>
@@ -23,7 +24,7 @@ namespace {
 using namespace detail;
 using tinyxml2::XMLElement;
 
-// All elements of SRDF, of which take() reads some.
+// All elements of SRDF. take() reads some of them.
 constexpr Words kOthers{"group",
                         "end_effector",
                         "passive_joint",
@@ -36,7 +37,7 @@ constexpr Words kOthers{"group",
                         "enable_collisions",
                         "disable_collisions"};
 
-// Those that take() reads.
+// The elements that take() reads.
 constexpr Words kRead{"group_state", "virtual_joint", "disable_default_collisions", "enable_collisions",
                       "disable_collisions"};
 
@@ -86,7 +87,7 @@ class SrdfReader {
                 (pair ? "; is it a misspelt <disable_collisions>?" : ""));
   }
 
-  // Of what take() would read, or may be meant to, but not within another element.
+  // Warns of elements that take() would read, or that may be meant as such, within another element.
   void warnOfInner(const XMLElement& around) {
     for (const XMLElement* e = around.FirstChildElement(); e; e = e->NextSiblingElement()) {
       if (holds(kRead, e->Name()))
@@ -102,7 +103,8 @@ class SrdfReader {
     srdf_.warnings.push_back(xmlPlace(e, path_) + message);
   }
 
-  // Only a warning: a state may belong to a variant of the robot, for example one with a gripper.
+  // This is only a warning, because a state may belong to a variant of the robot, for example one with a
+  // gripper.
   void warnOfUnknown(const Srdf::State& state) {
     std::string list;
     for (const auto& [joint, values] : state.joints) {
@@ -142,7 +144,7 @@ class SrdfReader {
     return link == 0;
   }
 
-  // The first that carries the root link moves the base, as in MoveIt.
+  // The first virtual joint that carries the root link moves the base, as in MoveIt.
   void addVirtualJoint(const XMLElement& e) {
     const std::string name = requiredAttribute(e, "name", path_), type = requiredAttribute(e, "type", path_);
     const char* child = e.Attribute("child_link");
@@ -198,7 +200,8 @@ class SrdfReader {
 
 bool isBlank(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
 
-/// Takes over the joints of another state of the name. The first joint that the two differ in, or "".
+/// Adds the joints of another state with the same name. @returns the first joint for which the two differ, or
+/// "".
 std::string takeJoints(Srdf::State& all, const Srdf::State& state) {
   for (const auto& [joint, values] : state.joints)
     if (all.joints.emplace(joint, values).first->second != values) return joint;
@@ -221,7 +224,7 @@ SkipReasons::SkipReasons(const Srdf* srdf) {
   if (!srdf) return;
   off_.insert(srdf->defaultsOff.begin(), srdf->defaultsOff.end());
   for (const Srdf::Pair& pair : srdf->enabled) named_.emplace(std::minmax(pair.link1, pair.link2), "");
-  for (const Srdf::Pair& pair : srdf->disabled)  // does not replace: the first entry counts
+  for (const Srdf::Pair& pair : srdf->disabled)  // emplace() does not replace: the first entry counts
     named_.emplace(std::minmax(pair.link1, pair.link2), pair.reason);
 }
 

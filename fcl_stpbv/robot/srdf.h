@@ -61,13 +61,13 @@ class SkipReasons {
   std::string of(const std::string& link1, const std::string& link2) const;
 
  private:
-  std::map<std::pair<std::string, std::string>, std::string> named_;  // names ascending
+  std::map<std::pair<std::string, std::string>, std::string> named_;  // with the two names in ascending order
   std::set<std::string> off_;
 };
 
 /// Reads an SRDF for `robot`. @throws Error listing everything that is wrong, with line numbers.
 Srdf loadSrdf(const std::string& path, const RobotModel& robot);
-/// The same, but faults are added to `faults`, and the caller decides.
+/// loadSrdf() that adds faults to `faults`, and the caller decides.
 Srdf loadSrdf(const std::string& path, const RobotModel& robot, LoadFaults& faults);
 
 /// The text of the SRDF at `path` (of an empty one if `path` is ""), with its disable_collisions entries
@@ -76,7 +76,7 @@ Srdf loadSrdf(const std::string& path, const RobotModel& robot, LoadFaults& faul
 /// entries. @throws Error as loadSrdf() does, for a file that is not an SRDF.
 std::string withPairs(const std::string& path, const std::string& robotName,
                       const std::vector<Srdf::Pair>& pairs, const std::vector<std::string>& comments = {});
-/// The same for an SRDF that was read already; null for an empty one.
+/// withPairs() for an SRDF that was read already; null for an empty one.
 std::string withPairs(const Srdf* srdf, const std::string& robotName, const std::vector<Srdf::Pair>& pairs,
                       const std::vector<std::string>& comments = {});
 

@@ -30,8 +30,9 @@ bool isUtf8(std::string_view text) {
   return true;
 }
 
-// The document's text. Names in another encoding come from a URDF that has it. A file that says it is UTF-8,
-// or nothing, would be no XML with them to strict readers; in ISO-8859-1 each byte is a character.
+// The document's text. If the URDF has another encoding, so have the names from it. A file that declares
+// UTF-8 or no encoding would then be invalid XML to strict readers. So the file declares ISO-8859-1, in which
+// each byte is a character.
 std::string printedInItsEncoding(tinyxml2::XMLDocument& document) {
   const std::string text = printed(document);
   if (isUtf8(text)) return text;
@@ -72,7 +73,8 @@ std::string withPairs(const Srdf* srdf, const std::string& robotName, const std:
     if (reason && usualReason(reason) != "User") root->DeleteChild(e);
     e = next;
   }
-  // Other readers let a disabled pair win over an enabled one: those that the file enables stay so.
+  // In other readers a disabled pair overrides an enabled one. So pairs that the file enables are not
+  // disabled.
   std::set<std::pair<std::string, std::string>> enabled;
   for (const XMLElement* e = root->FirstChildElement("enable_collisions"); e;
        e = e->NextSiblingElement("enable_collisions"))
@@ -81,7 +83,7 @@ std::string withPairs(const Srdf* srdf, const std::string& robotName, const std:
   for (std::string comment : comments) {
     comment = " " + comment + " ";
     for (std::size_t at; (at = comment.find("--")) != std::string::npos;)
-      comment[at] = '~';  // ends a comment
+      comment[at] = '~';  // "--" would end the comment
     root->InsertEndChild(document.NewComment(comment.c_str()));
   }
   for (const Srdf::Pair& pair : pairs) {

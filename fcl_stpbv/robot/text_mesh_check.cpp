@@ -23,7 +23,7 @@ void checkCoordinates(const MeshWords& words, const MeshLines& lines) {
     lines.damaged("a vertex must be three finite numbers, " + std::string(kNumberForm));
 }
 
-/// The next line of an OBJ, with those that a backslash joins to it; `joined` holds their text.
+/// The next line of an OBJ, together with the lines that a backslash joins to it; `joined` holds their text.
 bool nextObjLine(MeshLines& lines, std::string& joined, std::string_view& line) {
   if (!lines.next()) return false;
   line = lines.text();
@@ -37,7 +37,7 @@ bool nextObjLine(MeshLines& lines, std::string& joined, std::string_view& line) 
       if (!beginsWith(joined, "#")) lines.damaged("ends within a line that a backslash continues");
       break;
     }
-    // assimp goes on past an empty line, and past all lines that end by a carriage return alone.
+    // assimp continues past an empty line, and past all lines that end with a single carriage return.
     std::string_view rest = lines.text();
     const std::string keyword = inSmallLetters(takeWord(rest));
     if (byReturn || lines.text().empty() || keyword == "v" || keyword == "f")
@@ -58,7 +58,7 @@ bool looksLikeNumber(std::string_view word) {
 constexpr std::size_t kLongestNumber = 4095;
 constexpr std::size_t kLongestQuoted = 40;
 
-// assimp counts the numbers of a vertex to the line's end, and passes over one with another count.
+// assimp counts the numbers of a vertex up to the line's end, and ignores a vertex with another count.
 void checkObjVertex(std::string_view line, const MeshLines& lines) {
   const std::size_t end = std::min(line.find('#'), line.size());
   const MeshWords words = wordsOf(line.substr(0, end));
@@ -70,7 +70,7 @@ void checkObjVertex(std::string_view line, const MeshLines& lines) {
   if (numbers == 5 || numbers > 6)
     lines.refuse("a vertex of " + std::to_string(numbers) +
                  " numbers is not read, only one of 3, of 4 with a weight and of 6 with a colour");
-  double weight = 1;  // of a rational curve's point; assimp divides by it, others do not
+  double weight = 1;  // weight of a rational curve's point; assimp divides by it, other readers do not
   if (numbers == 4 && !(readMeshNumber(words[4], weight) && weight == 1))
     lines.refuse("a vertex has the weight " + std::string(words[4].substr(0, kLongestQuoted)) +
                  ", which programs read in different ways; write its three coordinates alone");
@@ -83,7 +83,7 @@ void checkObjVertex(std::string_view line, const MeshLines& lines) {
         "a number in the comment is taken for one of the vertex; give the comment a line of its own");
 }
 
-// The part of "7/1/3" that names a vertex.
+// The index of the vertex in a word such as "7/1/3".
 long vertexOf(std::string_view word, const MeshLines& lines) {
   const std::string_view first = word.substr(0, word.find('/'));
   long index = 0;
@@ -174,7 +174,7 @@ void checkObj(std::string_view text, const std::string& name) {
   if (furthest > vertices) lines.damaged(where, "a face names a vertex that does not exist");
 }
 
-// A binary STL is as long as its count of triangles says, and may begin with "solid" all the same.
+// A binary STL has the length that its count of triangles requires, and may begin with "solid" nevertheless.
 bool isBinaryStl(std::string_view text) {
   constexpr std::size_t kHead = 84, kTriangle = 50;
   const std::size_t start = std::min(text.find_first_not_of(" \t"), text.size());
@@ -250,7 +250,7 @@ class StlLines {
     inSolid_ = false;
   }
 
-  // The word may also follow others, but not as the name of a solid.
+  // Whether one of the words from `first` on begins with "endsolid". The name of a solid does not count.
   static bool endsWithin(const MeshWords& words, std::size_t first) {
     return words.size() > first &&
            std::any_of(words.begin() + static_cast<std::ptrdiff_t>(first), words.end(),
@@ -260,10 +260,10 @@ class StlLines {
   MeshLines lines_;
   bool inSolid_ = false, inFacet_ = false;
   int corners_ = 0;
-  int stray_ = 0;  // the first line that ended the reading
+  int stray_ = 0;  // line number of the first line outside of any solid
 };
 
-/// The text behind a byte-order mark. That hides the first word from assimp, and with it a vertex.
+/// The text after a byte-order mark. With the mark, assimp misses the first word, and with it a vertex.
 std::string_view pastByteOrderMark(std::string_view text, const std::string& name) {
   constexpr std::string_view kMark = "\xEF\xBB\xBF";
   if (!beginsWith(text, kMark)) return text;

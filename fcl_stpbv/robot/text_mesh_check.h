@@ -1,4 +1,5 @@
-// Damage in text meshes that assimp silently ignores: cut lines, decimal commas, indices without a vertex.
+// Finds damage in text meshes that assimp silently ignores: cut lines, decimal commas, indices without a
+// vertex.
 #pragma once
 
 #include <string>
@@ -6,8 +7,8 @@
 
 namespace fcl_stpbv::detail {
 
-/// Checks OBJ, text STL, OFF and COLLADA, told by `extension` (".obj", lower case); others pass.
-/// @returns what checkCollada() does, else 0.
+/// Checks OBJ, text STL, OFF and COLLADA, depending on `extension` (".obj", lower case). Other formats pass.
+/// @returns the result of checkCollada() for COLLADA, else 0.
 /// @throws Error "name:line: ..." saying what is wrong.
 double checkTextMesh(std::string_view text, const std::string& extension, const std::string& name);
 

@@ -1,4 +1,4 @@
-// A mesh as it is, for FCL.
+// A mesh's triangles as a geometry for FCL.
 #pragma once
 
 #include <fcl/geometry/collision_geometry.h>

@@ -1,4 +1,4 @@
-// What a rigid body's velocity does to its points.
+// The velocity of a rigid body's points.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,7 +13,7 @@ inline Eigen::Vector3d velocityOf(const Eigen::Vector3d& x, const Twist& body) {
   return body.linear + body.angular.cross(x);
 }
 
-/// [linear; angular] as one vector, which is how the two lie in memory.
+/// [linear; angular] as one vector; the two lie in memory in this order.
 inline Eigen::Map<const Eigen::Matrix<double, 6, 1>> stacked(const Twist& body) {
   static_assert(sizeof(Twist) == 6 * sizeof(double));
   return Eigen::Map<const Eigen::Matrix<double, 6, 1>>(body.linear.data());

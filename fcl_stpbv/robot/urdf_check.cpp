@@ -20,7 +20,7 @@ struct Tree {
   std::unordered_map<std::string, const XMLElement*> known;
   std::unordered_set<std::string> jointNames;
   std::vector<const XMLElement*> joints;
-  std::unordered_map<std::string, std::string> jointOf, parentOf;        // of a child link
+  std::unordered_map<std::string, std::string> jointOf, parentOf;        // by the name of a child link
   std::unordered_map<std::string, std::vector<std::string>> childrenOf;  // in the order of the file
   FirstProposals proposals;
 };
@@ -75,9 +75,10 @@ Tree readNames(const XMLElement& robot, const std::string& path, LoadFaults& fau
   return tree;
 }
 
-// The loop that `link`, which is not below the root, leads up into.
+// The loop that one gets into upwards from `link`, which is not below the root.
 std::string loopAbove(const Tree& tree, std::string link) {
-  for (std::size_t i = 0; i < tree.links.size(); ++i) link = tree.parentOf.at(link);  // now surely in it
+  // After so many steps upwards, `link` is in the loop.
+  for (std::size_t i = 0; i < tree.links.size(); ++i) link = tree.parentOf.at(link);
   std::string text = "'" + link + "'";
   constexpr int kShown = 20;
   int shown = 0;
@@ -87,7 +88,8 @@ std::string loopAbove(const Tree& tree, std::string link) {
   }
 }
 
-// "; is ... a misspelt <joint>?" of the first element that leads to the link, yet is no joint; else "".
+// "; is ... a misspelt <joint>?" with the first element that leads to the link but is not a joint; "" if
+// there is none.
 std::string likeJoint(const Tree& tree, const std::string& link) {
   const tinyxml2::XMLNode* robot = tree.known.at(link)->Parent();
   for (const XMLElement* e = robot->FirstChildElement(); e; e = e->NextSiblingElement()) {

@@ -14,12 +14,12 @@ namespace fcl_stpbv::detail {
 struct UrdfTree {
   std::vector<const tinyxml2::XMLElement*> links;   ///< parents before their children
   std::vector<const tinyxml2::XMLElement*> joints;  ///< in the order of the file
-  std::unordered_map<std::string, int> index;       ///< of the links
+  std::unordered_map<std::string, int> index;       ///< index of each link, by name
 };
 
-/// What is wrong becomes `faults.errors`, each naming the line and the link or joint; then joints may be
-/// missing and links come in the order of the file.
-/// @throws Error where nothing can be looked at: no links, or more than 20,000.
+/// Reads the tree. Faults are added to `faults.errors`, each naming the line and the link or joint. With
+/// faults, joints may be missing, and links are in the order of the file.
+/// @throws Error if nothing can be checked: no links, or more than 20,000.
 UrdfTree readTree(const tinyxml2::XMLElement& robot, const std::string& path, LoadFaults& faults);
 
 }  // namespace fcl_stpbv::detail

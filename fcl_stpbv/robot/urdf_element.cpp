@@ -31,11 +31,11 @@ class Listener : public console_bridge::OutputHandler {
 
  private:
   static std::mutex& mutex() {
-    static std::mutex one;  // the console's handler is one for the whole process
+    static std::mutex one;  // one, because the whole process has only one console handler
     return one;
   }
   std::lock_guard<std::mutex> guard_;
-  std::string heard_;  // the first thing said: what follows are its consequences
+  std::string heard_;  // the first error; later errors are its consequences
 };
 
 // XML treats tabs and line ends in attributes as spaces, but urdfdom accepts only spaces between numbers.
@@ -50,7 +50,7 @@ void spaceOut(XMLElement& element) {
   for (XMLElement* e = element.FirstChildElement(); e; e = e->NextSiblingElement()) spaceOut(*e);
 }
 
-// A robot of nothing but the element in question.
+// A robot that contains only the given element.
 class SmallRobot {
  public:
   SmallRobot() : robot_(add(document_, "robot")) { robot_->SetAttribute("name", "r"); }
@@ -70,7 +70,7 @@ class SmallRobot {
     return made;
   }
 
-  // Null where urdfdom refuses the whole; why is left in `reason`.
+  // Parses the robot. Null if urdfdom refuses it; `reason` receives its error.
   urdf::ModelInterfaceSharedPtr parse(std::string& reason) const {
     tinyxml2::XMLPrinter printer(nullptr, true);
     robot_->Accept(&printer);
@@ -127,7 +127,7 @@ urdf::InertialSharedPtr readInertialElement(const XMLElement& inertial) {
   std::string reason;
   const urdf::ModelInterfaceSharedPtr model = robot.parse(reason);
   const auto read = model ? model->getLink("l") : nullptr;
-  // With a wrong mass urdfdom leaves one of 0.
+  // If the mass is wrong, urdfdom leaves it 0 and reports an error.
   if (!reason.empty() || !read || !read->inertial) refuse(reason);
   return read->inertial;
 }

@@ -10,8 +10,8 @@
 
 namespace fcl_stpbv::detail {
 
-/// A `<collision>`, or a `<visual>` in its place: only its `<origin>` and `<geometry>` count. A capsule,
-/// newer than this urdfdom, comes as a cylinder.
+/// Reads a `<collision>`, or a `<visual>` in its place. Only its `<origin>` and `<geometry>` count. A capsule
+/// is returned as a cylinder, because this urdfdom does not know capsules.
 /// @throws Error saying what is wrong, without the element's place.
 urdf::CollisionSharedPtr readShapeElement(const tinyxml2::XMLElement& shape);
 
@@ -20,10 +20,10 @@ urdf::CollisionSharedPtr readShapeElement(const tinyxml2::XMLElement& shape);
 std::string shapePlace(const tinyxml2::XMLElement& shape, const std::string& path, const std::string& link,
                        const char* use, int number);
 
-/// An `<inertial>`. @throws as above.
+/// Reads an `<inertial>`. @throws as above.
 urdf::InertialSharedPtr readInertialElement(const tinyxml2::XMLElement& inertial);
 
-/// A `<joint>`, all but its name and links. @throws as above.
+/// Reads a `<joint>`, except its name and links. @throws as above.
 urdf::JointSharedPtr readJointElement(const tinyxml2::XMLElement& joint);
 
 /// Whether a length or a position is finite, and at most kLargestValue.

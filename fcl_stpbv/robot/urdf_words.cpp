@@ -23,7 +23,7 @@ struct Known {
   Words attributes, unused = {};
 };
 
-/// What may be in an element.
+/// The elements that may be in an element.
 class Elements {
  public:
   template <std::size_t n>
@@ -45,7 +45,7 @@ constexpr Known kInJoint[] = {{"origin", {"xyz", "rpy"}},
                                 "k_position", "damping", "friction"}},
                               {"mimic", {"joint", "multiplier", "offset"}}};
 constexpr Known kInInertial[] = {
-    {"origin", {"xyz", "rpy"}}, {"mass", {"value"}}, {"inertia", {}}};  // what inertia says is not used
+    {"origin", {"xyz", "rpy"}}, {"mass", {"value"}}, {"inertia", {}}};  // inertia's content is not used
 constexpr Known kInShape[] = {{"origin", {"xyz", "rpy"}}, {"geometry", {"name"}}};
 constexpr Known kInGeometry[] = {{"box", {"size"}},
                                  {"sphere", {"radius"}},
@@ -53,8 +53,8 @@ constexpr Known kInGeometry[] = {{"box", {"size"}},
                                  {"capsule", {"radius", "length"}},
                                  {"mesh", {"filename", "scale"}}};
 
-// Self filters have shapes of their own, to take a robot out of its sensors' point clouds; Drake's and
-// Gazebo's checks of a link name theirs.
+// Self filters have shapes of their own, which remove a robot from its sensors' point clouds. Drake's and
+// Gazebo's self-collision checks refer to a link's shapes by name.
 bool ofSelfFilter(std::string_view name) {
   return name == "self_filter" || name == "self_collision_checking";
 }
@@ -67,8 +67,8 @@ std::string listed(const Words& words) {
   return text.empty() ? "none" : text;
 }
 
-// Other tools add attributes of their own. One is let pass only where none that counts is missing, so that it
-// cannot be one of those, misspelt.
+// Other tools add attributes of their own. An unknown attribute is accepted only if none of the known
+// attributes is missing, because otherwise it could be a misspelt one.
 void checkAttributes(const XMLElement& element, const Known& known) {
   const bool complete =
       std::all_of(known.attributes.begin(), known.attributes.end(),
@@ -82,15 +82,15 @@ void checkAttributes(const XMLElement& element, const Known& known) {
   }
 }
 
-// Whether an attribute is three zeros, as of an origin that has no effect; it is harmless in any place and
-// under any name.
+// Whether an attribute is three zeros, such as the origin of an element without an offset. It has no effect
+// in any place and under any name.
 bool isNowhere(std::string_view attribute, std::string_view numbers) {
   return (attribute == "xyz" || attribute == "rpy") &&
          numbers.find_first_not_of("0.+- \t\r\n") == std::string_view::npos;
 }
 
-// An element of an unknown name is let pass, as other tools add their own,
-// unless it says what a known one would say.
+// Accepts an element with an unknown name, because other tools add their own elements, unless it has the
+// content of a known element.
 void checkUnknown(const XMLElement& element, const Elements& list) {
   for (const Known& known : list) {
     for (const std::string_view attribute : known.attributes) {
@@ -128,7 +128,8 @@ bool named(const tinyxml2::XMLNode* node, std::string_view name) {
 
 bool isShape(const tinyxml2::XMLNode* node) { return named(node, "collision") || named(node, "visual"); }
 
-// Whether it says more than a name. Pinocchio's <collision_checking> names shapes that a link has.
+// Whether the element has more than a name. Pinocchio's <collision_checking> refers to a link's shapes by
+// name.
 bool saysMore(const XMLElement& element) {
   const tinyxml2::XMLAttribute* first = element.FirstAttribute();
   return first && (first->Next() || std::string_view(first->Name()) != "name");
@@ -150,8 +151,8 @@ bool isLost(const XMLElement& element) {
          !isShape(holder->Parent());
 }
 
-// Whether all around an element, up to the robot, is URDF's own: other tools' elements have words of their
-// own.
+// Whether all elements around an element, up to the robot, are URDF's own. Elements of other tools have their
+// own names for their contents.
 bool isOwn(const XMLElement& holder, const XMLElement& robot) {
   constexpr Words kOwn{"link",    "joint", "collision", "visual", "geometry", "box",   "sphere", "cylinder",
                        "capsule", "mesh",  "origin",    "axis",   "parent",   "child", "limit",  "mimic"};
@@ -172,8 +173,9 @@ const char* homeOf(const XMLElement& element, const XMLElement& holder, const XM
   return ofJoint && element.FirstAttribute() ? "a <joint>" : nullptr;
 }
 
-// The word that a name in a link misspells by up to one letter in four, "" if none: such an element would
-// lose a body, even if its content does not show that, because it is empty or has more misspelt words.
+// The word ("collision" or "visual") that a name in a link misspells by up to one letter in four; "" if there
+// is none. Such an element would lose a body, even if its content does not show that because it is empty or
+// has more misspelt words.
 std::string_view misspeltShape(std::string_view name) {
   const std::string small = inSmallLetters(name);
   for (const char* word : {"collision", "visual"})
@@ -200,7 +202,7 @@ std::string misplaced(const XMLElement& element, const XMLElement& holder, bool 
   return within + "is <" + around + "> misspelt?" + ofAnotherTool(around);
 }
 
-// The link that an element is in; null for none.
+// The link that contains an element; null if there is none.
 const XMLElement* linkAround(const XMLElement& element, const XMLElement& robot) {
   const tinyxml2::XMLNode* above = element.Parent();
   while (above != &robot && above->Parent() != &robot) above = above->Parent();
@@ -269,7 +271,7 @@ int checkPlaces(const XMLElement& robot, const std::string& path, LoadFaults& fa
       }
       if ((name == "collision" && !link) || (name == "geometry" && !shape) || isLost(*e)) {
         const XMLElement* around =
-            name == "collision" ? nullptr : linkAround(*e, robot);  // that lacks a shape
+            name == "collision" ? nullptr : linkAround(*e, robot);  // the link that lacks a shape
         if (around) incomplete.insert(around);
         (around ? faults.shapes : faults.errors)
             .push_back(xmlPlace(*e, path) + misplaced(*e, at, link || &at == &robot));

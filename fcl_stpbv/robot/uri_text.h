@@ -28,7 +28,8 @@ inline std::string percentDecoded(const std::string& text) {
   return decoded;
 }
 
-/// The path in a name with file://, absolute also after a host's name "localhost"; nothing in other names.
+/// The path in a name with file://. It is absolute after the host name "localhost" too. No value for other
+/// names.
 inline std::optional<std::string> filePathIn(const std::string& uri) {
   const std::string start = "file://", host = "localhost/";
   if (uri.compare(0, start.size(), start) != 0) return std::nullopt;
@@ -36,7 +37,7 @@ inline std::optional<std::string> filePathIn(const std::string& uri) {
   return uri.substr(start.size() + (hasHost ? host.size() - 1 : 0));
 }
 
-/// The names that a glTF's uri may mean, in the order in which they are tried.
+/// The names that a uri in a glTF may mean, in the order in which they are tried.
 inline std::vector<std::string> namesOf(const std::string& uri) {
   std::string slashes = uri;
   std::replace(slashes.begin(), slashes.end(), '\\', '/');

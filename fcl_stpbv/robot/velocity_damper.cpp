@@ -165,7 +165,7 @@ void VelocityDamper::update(const Eigen::Ref<const Eigen::VectorXd>& q,
     known = constraints_.evaluate(q, qd, rates_, jacobian_);
   }
   near_.clear();
-  if (!known) {  // no row can be met, and none has entered
+  if (!known) {  // no row can be met, and no pair has entered
     b_.setConstant(kInfinity);
     for (int row = 0; row < constraints_.rows(); ++row) near_.push_back(row);
     return;
@@ -198,10 +198,10 @@ int VelocityDamper::dense(Eigen::Ref<Eigen::MatrixXd> A, Eigen::Ref<Eigen::Vecto
   return count;
 }
 
-// Of x = x0 + H^-1 A' l, A x = b while the rows stay the same: their part of dx/dt is the projection of H^-1
-// (dA/dt)' l and H^-1 A' G^-1 (db/dt - dA/dt x), G = A H^-1 A'.
+// While the active rows stay the same, x = x0 + H^-1 A' l with A x = b. The rows' part of dx/dt is the
+// projection of H^-1 (dA/dt)' l plus H^-1 A' G^-1 (db/dt - dA/dt x), with G = A H^-1 A'.
 double collisionAccelerationBound(const ProgramChange& change, double smallestH, double smallestG) {
-  // What is 0 stays 0, also where the other factor has no bound.
+  // 0 stays 0, even if the other factor is infinite.
   const auto times = [](double a, double b) { return a == 0 || b == 0 ? 0.0 : a * b; };
   const auto over = [](double sum, double eigenvalue) {
     if (sum == 0) return 0.0;

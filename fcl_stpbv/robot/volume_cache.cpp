@@ -30,10 +30,11 @@ namespace fs = std::filesystem;
 // Change it when the same mesh gives other volumes, radii, parts or pair lists than before.
 constexpr std::string_view kVersion = "fcl_stpbv volume cache 19\n";
 
-// The name of an entry's file without its ending: the digest of what it was built from.
+// The name of an entry's file without its extension: the digest of the content that the entry was built from.
 std::string keyOf(const std::string& path) { return fs::path(path).stem().string(); }
 
-// Opens an entry. -1 for a link, a pipe or a device, and for a file that somebody else may have written.
+// Opens an entry. @returns -1 for a link, a pipe or a device, and for a file that another user could have
+// written.
 int openEntry(const std::string& path) {
   const int file = ::open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
   struct stat about {};
@@ -59,8 +60,8 @@ std::string pathIn(const std::string& folder, const std::string& key, const char
   return (fs::path(folder) / (digestOf(key) + extension)).string();
 }
 
-// An entry is a line with the digest of its key and the rest, then the volume's or the parts' own format.
-// Nothing for one that is not to be believed.
+// The content of an entry, or "" if it cannot be trusted. An entry is a line with the digest of its key and
+// the rest, then the volume's or the parts' own format.
 std::string believed(const std::string& path) {
   std::string text = readEntry(path);
   const std::size_t line = text.find('\n');
@@ -122,7 +123,7 @@ void read(const std::string& text, const std::string& path, RolledHull& hull) {
 
 }  // namespace
 
-// Two streams of 64 bits, eight characters a step, each step mixed by a product and a shift.
+// Two streams of 64 bits take eight characters per step. Each step is mixed by a product and a shift.
 std::string digestOf(std::string_view text) {
   std::uint64_t a = 0xcbf29ce484222325u, b = 0x9e3779b97f4a7c15u ^ text.size();
   for (std::size_t at = 0; at < text.size(); at += sizeof a) {
@@ -186,7 +187,7 @@ Kept VolumeCache::find(const std::string& path, const std::function<Kept()>& bui
       return kept;
     }
   } catch (const std::exception&) {
-    // built anew
+    // the entry is built anew
   }
   const Kept built = build();
   keep(path, textOf(built));
@@ -226,7 +227,7 @@ void VolumeCache::keep(const std::string& path, const std::string& entry) {
     const std::string text = "\n" + entry;
     atomicWriteOwn(path, digestOf(keyOf(path) + text) + text);
   } catch (const std::exception&) {
-    return;  // built again next time
+    return;  // the entry is built anew next time
   }
 }
 

@@ -27,30 +27,30 @@ std::string digestOf(std::string_view content);
 /// one.
 class VolumeCache {
  public:
-  /// `folder` is made when the first entry is kept; "" keeps nothing.
+  /// `folder` is created when the first entry is stored; "" stores nothing.
   explicit VolumeCache(std::string folder) : folder_(std::move(folder)) {}
 
-  /// The volume built before from the same content, r and R, or else what `build` returns, which is kept.
+  /// The volume stored for the same content, r and R, or else the result of `build`, which is then stored.
   StpBv::Ptr volume(std::string_view content, const StpBvOptions& options,
                     const std::function<StpBv::Ptr()>& build);
 
-  /// The same of a mesh's convex parts; the content is the whole mesh's.
+  /// The convex parts of a mesh in the same way. `content` is that of the whole mesh.
   ConvexParts parts(std::string_view content, const PartsOptions& options,
                     const std::function<ConvexParts()>& build);
 
-  /// The convex hull of a cloud that is finite and not empty: the one found before, or else a new one.
-  /// @throws Error as convexHull().
+  /// The convex hull of a cloud that is finite and not empty: the stored one, or else a new one. @throws
+  /// Error as convexHull().
   RolledHull convexHull(const std::vector<Eigen::Vector3d>& cloud);
 
-  /// The same of finite numbers that follow from `content` and whose kind, a short word, is the end of the
-  /// entry's name. They may be as many as were ever built for another content: the caller checks.
+  /// Finite numbers that depend on `content`, in the same way. `kind`, a short word, is the end of the
+  /// entry's name. The entry may have any number of them: the caller must check it.
   std::vector<double> numbers(std::string_view content, const std::string& kind,
                               const std::function<std::vector<double>()>& build);
 
   /// Whether there is an entry for a volume; a damaged one counts.
   bool has(std::string_view content, const StpBvOptions& options) const;
 
-  /// How often an entry for a volume or parts was believed.
+  /// Number of times that an entry for a volume or parts was used.
   int hits() const { return hits_; }
 
  private:

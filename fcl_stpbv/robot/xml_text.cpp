@@ -1,5 +1,5 @@
-// Parses untrusted XML: bounds size, depth and attributes, refuses document types, NUL bytes and xacro.
-// Prints it.
+// Parses untrusted XML: bounds size, depth and number of attributes; refuses document types, NUL bytes and
+// xacro. Also prints XML.
 #include "fcl_stpbv/robot/xml_text.h"
 
 #include <algorithm>
@@ -28,8 +28,9 @@ void refuseDocumentType(const tinyxml2::XMLDocument& document, const std::string
   }
 }
 
-// Parsers look for a name that comes twice among all that an element has so far: a million bytes of them take
-// a minute. Counts what is quoted in each tag; what is no tag, as in a comment, is not counted.
+// Parsers search for a repeated name among all attributes that an element has so far, so a million bytes of
+// attributes take a minute. This counts the quoted values in each tag. Text that is no tag, such as a
+// comment, is not counted.
 void refuseManyAttributes(std::string_view text, const std::string& name) {
   constexpr long kMost = 1000;
   const auto skipTo = [&](std::size_t from, std::string_view end) {
@@ -89,7 +90,7 @@ void refuseXacro(const tinyxml2::XMLElement& root, const std::string& name) {
   }
 }
 
-/// printed()
+/// The printer that printed() uses.
 class AttributePrinter : public tinyxml2::XMLPrinter {
  public:
   using XMLPrinter::VisitEnter;

@@ -1,4 +1,4 @@
-// XML from untrusted files: size, depth, attributes and entities are bounded before anything else reads it.
+// XML from untrusted files: size, depth, attributes and entities are checked before any other code reads it.
 #pragma once
 
 #include <tinyxml2.h>
@@ -14,7 +14,7 @@ namespace fcl_stpbv::detail {
 /// @throws Error "name:line: ..." saying what is wrong.
 void parseXml(std::string_view text, const std::string& name, tinyxml2::XMLDocument& document);
 
-/// "name:line: ", where the element begins.
+/// "name:line: " with the line where the element begins.
 std::string xmlPlace(const tinyxml2::XMLElement& element, const std::string& name);
 
 /// The text of a file, bounded in size as above. @throws Error naming the file.
@@ -27,7 +27,7 @@ void loadXml(const std::string& path, tinyxml2::XMLDocument& document);
 /// readers replace the literal characters by spaces.
 std::string printed(const tinyxml2::XMLDocument& document);
 
-/// An attribute that must be there. @throws Error naming file, line, element and attribute.
+/// A required attribute. @throws Error naming file, line, element and attribute.
 std::string requiredAttribute(const tinyxml2::XMLElement& element, const char* attribute,
                               const std::string& name);
 
