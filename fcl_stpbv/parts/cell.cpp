@@ -1,7 +1,8 @@
 // A convex cell of space between cutting planes, as a polyhedron of corners and faces.
 // 1. Start: the mesh's box, a little larger.
-// 2. above(): clips each face by the plane, joins the new corners to a face; a corner on the cut asks the
-//    mesh, if there is one, whether it is inside.
+// 2. above(): clip each face by the plane and join the new corners to a face. If a mesh is given, test
+// whether each
+//    corner on the cut is inside it.
 #include "fcl_stpbv/parts/cell.h"
 
 #include <Eigen/Geometry>
@@ -17,7 +18,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-// Points of one plane in order around their middle.
+// Sorts points of one plane around their middle.
 template <class Place>
 void sortAround(std::vector<int>& ring, const Vector3d& normal, Place place) {
   Vector3d middle = Vector3d::Zero();

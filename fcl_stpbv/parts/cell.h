@@ -15,7 +15,7 @@ namespace fcl_stpbv::detail {
 /// the surface's triangles within the cell and of those corners contains all of the solid within the cell.
 class Cell {
  public:
-  Cell() = default;  ///< none: for meshes that enclose nothing
+  Cell() = default;  ///< an empty cell, for meshes that enclose nothing
   /// The box around the mesh, a little larger.
   explicit Cell(const MeshSolid& mesh);
 
@@ -25,9 +25,9 @@ class Cell {
 
   /// Least and largest height of its corners over a plane (m).
   std::pair<double, double> reach(const CutPlane& plane) const;
-  /// Whether it has no inside.
+  /// Whether the cell has no inside.
   bool isFlat() const { return faces_.size() < 4; }
-  /// The mean of its corners, a point inside where it is not flat.
+  /// The mean of its corners. It is inside if the cell is not flat.
   Eigen::Vector3d middle() const;
 
   std::vector<Eigen::Vector3d> corners() const;
@@ -40,7 +40,7 @@ class Cell {
     bool enclosed;
   };
   std::vector<Corner> corners_;
-  std::vector<std::vector<int>> faces_;  // rings
+  std::vector<std::vector<int>> faces_;  // rings of corners
 };
 
 }  // namespace fcl_stpbv::detail

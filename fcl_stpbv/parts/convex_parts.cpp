@@ -31,10 +31,11 @@ namespace {
 using namespace detail;
 using Eigen::Vector3d;
 
-constexpr int kStartPieces = 24;  // of a mesh that begins as one part a piece
-constexpr double kHulls = 12000;  // what the search spends at effort 1
+constexpr int kStartPieces = 24;  // for a mesh that starts with one part per piece
+constexpr double kHulls = 12000;  // number of hulls that the search may make at effort 1
 
-// What the mesh has in a leaf, cut anew from the whole mesh. A facet is that of the whole mesh already.
+// The mesh's points in a leaf, cut anew from the whole mesh. A facet's points are those of the whole mesh
+// already.
 std::vector<Vector3d> pointsIn(const BspLeaf& leaf, const std::vector<TriangleSoup>& groups,
                                const PartSpace& space) {
   if (leaf.isFacet) return leaf.soup.points;
@@ -47,10 +48,10 @@ void append(std::vector<Vector3d>& all, const std::vector<Vector3d>& more) {
   all.insert(all.end(), more.begin(), more.end());
 }
 
-// What a part is the hull of.
+// The points whose hull is a part.
 struct PartPoints {
-  std::vector<Vector3d> found;   // by the search: all of the triangles, and corners where it had them
-  std::vector<Vector3d> needed;  // corners of its cells that the inside needs besides
+  std::vector<Vector3d> found;   // by the search: all points of triangles, and corners if it had them
+  std::vector<Vector3d> needed;  // corners of its cells that the inside needs in addition
 };
 
 // The points of the parts as the search found them.
@@ -78,12 +79,13 @@ void coverInside(const PartSearch::Parts& parts, const std::vector<TriangleSoup>
     std::vector<HullPlanes> ownFirst = hulls;
     std::swap(ownFirst[0], ownFirst[p]);
     for (const auto& leaf : parts[p]->leaves) {
-      if (!leaf->corners.empty()) continue;  // the search had them
+      if (!leaf->corners.empty()) continue;  // the search had its corners
       Cell cell(space.mesh);
       for (const CutPlane& plane : leaf->path) cell = cell.above(plane, space.slack, &space.mesh);
       const std::vector<Vector3d> corners = cell.enclosedCorners();
       if (corners.empty()) continue;
-      // With its corners the leaf has all of the solid in its cell: the rest of the cell does not matter.
+      // With its corners, the leaf contains all of the solid in its cell, so the rest of the cell does not
+      // matter.
       std::vector<Vector3d> whole = corners;
       append(whole, pointsIn(*leaf, groups, space));
       if (const HullPlanes around = hullPlanes(whole, 2 * space.slack); !isFlat(around))
@@ -109,13 +111,13 @@ ConvexPart certified(const std::vector<Vector3d>& points, const PartSpace& space
 
 struct Certified {
   ConvexParts parts;
-  bool asFound = true;  // no part is farther from the mesh for corners that it turned out to need
+  bool asFound = true;  // whether no part became farther from the mesh by added corners
 };
 
 Certified certified(std::vector<PartPoints> points, const PartSpace& space) {
   Certified out;
   for (PartPoints& one : points) {
-    ConvexPart part;  // stays without points where only the coarse mesh has any in its cells
+    ConvexPart part;  // stays without points if only the coarse mesh has triangles in its cells
     if (!one.found.empty()) part = certified(one.found, space);
     if (!one.needed.empty()) {
       const double before = part.excess.upper;
@@ -131,7 +133,8 @@ Certified certified(std::vector<PartPoints> points, const PartSpace& space) {
   return out;
 }
 
-// The groups uncut, one part each; with the corners of their cells in what is cut from them, or without.
+// The groups uncut, one part each. `corners`: whether leaves that are cut from them get the corners of their
+// cells.
 PartSearch::Parts uncut(const std::vector<TriangleSoup>& soups, const PartSpace& space, bool corners) {
   PartSearch::Parts parts;
   for (std::size_t g = 0; g < soups.size(); ++g) {
@@ -144,14 +147,14 @@ PartSearch::Parts uncut(const std::vector<TriangleSoup>& soups, const PartSpace&
   return parts;
 }
 
-// Searches for parts of one mesh, within one bound after the other: what was measured for one is known to the
-// next.
+// Searches for parts of one mesh, for one bound after the other. Each search uses the measurements of the
+// searches before.
 class Searches {
  public:
   Searches(const PartSpace& space, const std::vector<TriangleSoup>& soups, int most)
       : space_(space), soups_(soups), most_(most), plain_(space, most), withCorners_(space, most) {}
 
-  // At most so many hulls are spent on each way to search.
+  // Each way to search may make at most `work` hulls.
   ConvexParts within(double excess, long work);
 
  private:
@@ -160,7 +163,8 @@ class Searches {
     if (space_.mesh.hasInside()) coverInside(parts, soups_, space_, points);
     return certified(std::move(points), space_);
   }
-  // Of parts whose hulls hold the mesh's triangles. Nothing where one gets farther from it than `bound` (m).
+  // For parts whose hulls contain the mesh's triangles. No value if one becomes farther from the mesh than
+  // `bound` (m).
   std::optional<ConvexParts> byGrowing(PartSearch::Parts parts, double bound) const {
     if (space_.mesh.hasInside()) parts = filled(std::move(parts), space_, most_, bound);
     if (parts.empty()) return std::nullopt;
@@ -177,13 +181,15 @@ class Searches {
   int most_;
   PartSearch plain_, withCorners_;
   PartSearch::Parts start_, startWithCorners_;
-  bool needsCorners_ = false;  // the inside does, and parts that have them from the start are nearer
+  bool needsCorners_ = false;  // whether the inside needs corners, and parts that have them from the start
+                               // are nearer to the mesh
 };
 
-// 1. Facets, joined, where these are enough.
-// 2. Parts by cuts. Where these are not enough, facets again, joined and cut on.
-// 3. Where the inside needs corners that raise the excess: parts that grow instead, and cuts again, with all
-//    corners from the start.
+// 1. Join facets, if the result is good enough.
+// 2. Cut parts. If the result is not good enough, join facets again and cut them further.
+// 3. If the inside needs corners that increase the excess, try parts that grow instead, and cuts with all
+// corners
+//    from the start.
 ConvexParts Searches::within(double excess, long work) {
   if (needsCorners_) return byCutsWithCorners(excess, work);
   plain_.aim(excess);
@@ -196,7 +202,7 @@ ConvexParts Searches::within(double excess, long work) {
   if (start_.empty()) start_ = uncut(soups_, space_, false);
   const PartSearch::Parts cuts = plain_.byCuts(start_, work);
   if (!facets.empty() && !plain_.isEnough(cuts)) {
-    PartSearch::Parts best;  // of the facets' sets, joined
+    PartSearch::Parts best;  // best of the facets' sets, after joining
     for (const PartSearch::Parts& one : facets) {
       PartSearch::Parts few = plain_.improved(one, 0L);
       if (best.empty() || PartSearch::isBetter(few, best)) best = std::move(few);
@@ -231,7 +237,7 @@ long workFor(const PartSpace& space, const PartsOptions& options) {
 }  // namespace
 
 ConvexParts convexParts(const TriangleMesh& input, const PartsOptions& options) {
-  constexpr double kLargest = 1e6;  // m, and times the usual search: beyond either is a mistake
+  constexpr double kLargest = 1e6;  // m, and factor of the usual search: more than that is a mistake
   requireNumber("convexParts: most", options.most, 1, kLargest);
   requireNumber("convexParts: excess", options.excess, 0, kLargest);
   requireNumber("convexParts: effort", options.effort, 1e-3, kLargest);

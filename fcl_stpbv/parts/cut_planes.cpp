@@ -17,10 +17,10 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr int kSteps = 12;   // cuts across an axis
-constexpr int kFacets = 30;  // flat parts tried
+constexpr int kSteps = 12;   // cuts across each axis
+constexpr int kFacets = 30;  // number of flat parts tried
 
-// Lowest and highest of the part along a direction.
+// Lowest and highest point of the part along a direction.
 std::pair<double, double> reach(const Part& part, const Vector3d& n) {
   double low = n.dot(part.hull.vertices[0]), high = low;
   for (const Vector3d& v : part.hull.vertices) {
@@ -31,8 +31,8 @@ std::pair<double, double> reach(const Part& part, const Vector3d& n) {
 }
 
 struct Spread {
-  Eigen::Matrix3d axes;               // principal ones of the triangles' middles, by area
-  std::map<int, double> areaOfFacet;  // of the part
+  Eigen::Matrix3d axes;               // principal axes of the triangles' middles, weighted by area
+  std::map<int, double> areaOfFacet;  // area of the part's triangles in each facet
 };
 
 Spread spreadOf(const Part& part) {
@@ -63,7 +63,8 @@ Spread spreadOf(const Part& part) {
 }  // namespace
 
 std::vector<CutPlane> flatParts(const MeshSolid& mesh, double slack, std::vector<int>& facetOf) {
-  // Normals and offsets to a grid: a flat part whose triangles fall into two of its cells counts twice.
+  // Normals and offsets are rounded to a grid. A flat part whose triangles fall into two cells of the grid
+  // counts twice.
   constexpr double kGrid = 1e-3;
   std::map<std::array<long, 4>, int> number;
   std::vector<CutPlane> planes;

@@ -7,7 +7,7 @@
 
 namespace fcl_stpbv::detail {
 
-/// The planes of the mesh's flat parts, and for each triangle which of them it belongs to.
+/// The planes of the mesh's flat parts. `facetOf` receives for each triangle the index of its flat part.
 std::vector<CutPlane> flatParts(const MeshSolid& mesh, double slack, std::vector<int>& facetOf);
 
 /// The planes are perpendicular to the coordinate axes and the part's principal axes, in even steps; through

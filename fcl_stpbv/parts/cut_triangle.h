@@ -10,7 +10,7 @@
 
 namespace fcl_stpbv::detail {
 
-/// What up to three planes leave of a triangle: a convex polygon, or nothing.
+/// The remainder of a triangle after cuts by up to three planes: a convex polygon, or nothing.
 class CutTriangle {
  public:
   CutTriangle() = default;
@@ -29,7 +29,8 @@ class CutTriangle {
     return 0.5 * sum.norm();
   }
 
-  /// The part where along.p >= offset, and the rest; corners within `slack` of that plane count as on it.
+  /// Cuts the polygon into the part where along.p >= offset, and the rest. Corners within `slack` of that
+  /// plane count as on it.
   std::pair<CutTriangle, CutTriangle> cut(const Eigen::Vector3d& along, double offset, double slack) const {
     const CutTriangle& ring = *this;
     std::pair<CutTriangle, CutTriangle> out;
@@ -60,7 +61,7 @@ class CutTriangle {
   void add(const Eigen::Vector3d& p) {
     if (size_ < corners_.size()) corners_[size_++] = p;
   }
-  std::array<Eigen::Vector3d, 6> corners_;  // a cut adds one at most, and there are three
+  std::array<Eigen::Vector3d, 6> corners_;  // a cut adds at most one corner, and there are three cuts
   std::size_t size_ = 0;
 };
 

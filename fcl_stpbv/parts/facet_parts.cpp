@@ -22,10 +22,12 @@
 namespace fcl_stpbv::detail {
 namespace {
 
-constexpr double kFiner = 0.1;            // of what other searches look at: what fits here fits to rounding
-constexpr std::size_t kMostFacets = 700;  // a round mesh, of small facets, is not made of few convex bodies
+// As a share of the resolution of other searches: facets that fit here fit up to rounding.
+constexpr double kFiner = 0.1;
+// A round mesh of small facets does not consist of a few convex bodies.
+constexpr std::size_t kMostFacets = 700;
 
-// Triangles of one facet each, and which of them share an edge.
+// The triangles of each facet, and which facets share an edge.
 struct Facets {
   std::vector<TriangleSoup> soups;
   std::set<std::pair<int, int>> neighbours;
@@ -36,7 +38,7 @@ int rootOf(std::vector<int>& parent, int i) {
   return i;
 }
 
-// The triangles of `soup` by facet, those in `loose` each on its own.
+// Adds the triangles of `soup` by facet. Triangles of the facets in `loose` are added one by one.
 void append(Facets& out, const TriangleSoup& soup, const std::set<int>& loose) {
   std::map<std::pair<int, int>, std::vector<int>> atEdge;
   for (std::size_t t = 0; t < soup.triangles.size(); ++t)
@@ -50,7 +52,7 @@ void append(Facets& out, const TriangleSoup& soup, const std::set<int>& loose) {
     for (const int t : triangles)
       if (soup.facet[at(t)] == soup.facet[at(triangles[0])] && !loose.count(soup.facet[at(t)]))
         parent[at(rootOf(parent, t))] = rootOf(parent, triangles[0]);
-  std::map<int, int> place;  // of a root
+  std::map<int, int> place;  // index of the soup of each root
   for (std::size_t t = 0; t < parent.size(); ++t) {
     const auto [found, isNew] =
         place.try_emplace(rootOf(parent, static_cast<int>(t)), static_cast<int>(out.soups.size()));
@@ -77,9 +79,9 @@ double areaOf(const std::vector<Triangle>& surface) {
   return area;
 }
 
-// Two neighbours' common hull.
+// The common hull of two neighbours.
 struct Join {
-  double excess = 0;  // over the mesh; 0 within the bound
+  double excess = 0;  // over the mesh; 0 if it is within the bound
   double size = 0;
   PartPtr part;
 
@@ -92,7 +94,7 @@ struct Join {
   bool isBefore(const Join& other) const {
     return std::tie(excess, size) < std::tie(other.excess, other.size);
   }
-  // Measures what may not be within the bound again, well. Whether that was called for.
+  // If the excess may not be within the bound, measures it again more accurately. @returns whether it did.
   bool confirm(const PartSpace& space, double bound) {
     constexpr long kQueries = 10000;
     if (excess > 0 || part->excess.upper <= bound + kFiner * space.fine || part->queries == kQueries)
@@ -103,7 +105,7 @@ struct Join {
   }
 };
 
-// Those that are left.
+// The parts that are left.
 PartSearch::Parts leftOf(PartSearch::Parts parts) {
   parts.erase(std::remove(parts.begin(), parts.end(), nullptr), parts.end());
   return parts;
@@ -117,7 +119,7 @@ std::vector<PartSearch::Parts> facetParts(const std::vector<TriangleSoup>& group
   bound = std::max(bound, 2 * kFiner * space.fine);
   Facets facets;
   PartSearch::Parts parts;
-  std::set<int> loose;  // facets that are not convex, as an L's or a ring's, go triangle by triangle
+  std::set<int> loose;  // facets that are not convex, such as an L or a ring, are taken triangle by triangle
   for (const bool again : {false, true}) {
     facets = {};
     for (const TriangleSoup& group : groups) append(facets, group, loose);
@@ -142,7 +144,7 @@ std::vector<PartSearch::Parts> facetParts(const std::vector<TriangleSoup>& group
   while (left > 1 && !joins.empty()) {
     const auto best = std::min_element(
         joins.begin(), joins.end(), [](const auto& x, const auto& y) { return x.second.isBefore(y.second); });
-    if (best->second.confirm(space, bound)) continue;  // it may no longer be the best
+    if (best->second.confirm(space, bound)) continue;  // it may no longer be the best one
     if (left <= many && best->second.excess > 0) {
       found.push_back(leftOf(parts));
       if (left <= few) break;
@@ -161,7 +163,7 @@ std::vector<PartSearch::Parts> facetParts(const std::vector<TriangleSoup>& group
     for (const int other : around)
       if (other != a && other != b) add(a, other);
   }
-  if (left > 2 * many) return {};  // loose pieces: joining each with each takes too long
+  if (left > 2 * many) return {};  // there are many loose pieces, and joining each with each takes too long
   if (found.empty() || found.back().size() > few) found.push_back(leftOf(parts));
   return found;
 }

@@ -22,7 +22,7 @@ void sortLargestFirst(PartSearch::Parts& parts) {
                    [](const PartPtr& a, const PartPtr& b) { return a->hull.volume > b->hull.volume; });
 }
 
-/// The pieces as parts, the largest first. How far they are from the mesh is not measured: they are in it.
+/// The pieces as parts, the largest first. Their excess is not measured, because they are inside the mesh.
 PartSearch::Parts piecesOf(const std::vector<Cell>& cells) {
   PartSearch::Parts pieces;
   for (const Cell& cell : cells) {
@@ -38,13 +38,13 @@ PartSearch::Parts piecesOf(const std::vector<Cell>& cells) {
   return pieces;
 }
 
-/// A part and a piece together, and which part it was.
+/// A part joined with a piece, and the index of the part.
 struct Growth {
   PartPtr part;
   std::size_t place = 0;
 };
 
-/// Of the part that stays nearest to the mesh with the piece.
+/// The part that stays nearest to the mesh when it is joined with the piece.
 Growth leastFar(const PartSearch::Parts& parts, const Part& piece, const PartSpace& space) {
   Growth best;
   double least = kInfinity;
@@ -67,7 +67,7 @@ bool isIn(const HullPlanes& hull, const std::vector<Vector3d>& points) {
 
 PartSearch::Parts filled(PartSearch::Parts parts, const PartSpace& space, int most, double bound) {
   constexpr int kRounds = 20, kEach = 12;
-  constexpr std::size_t kMostPlanes = 3000, kMostOpen = 3000;  // more take longer than they are worth
+  constexpr std::size_t kMostPlanes = 3000, kMostOpen = 3000;  // more would take too long
   const auto planesOf = [&](const PartPtr& part) { return hullPlanes(part->hull.vertices, 2 * space.slack); };
   std::vector<HullPlanes> hulls;
   sortLargestFirst(parts);
@@ -94,7 +94,7 @@ PartSearch::Parts filled(PartSearch::Parts parts, const PartSpace& space, int mo
       }
       if (++grown == kEach) break;
     }
-    if (grown == 0) return parts;  // what is left is in one of them each
+    if (grown == 0) return parts;  // each remaining piece is in one of the parts
   }
   return {};
 }

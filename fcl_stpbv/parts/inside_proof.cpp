@@ -2,7 +2,7 @@
 // 1. the planes of a hull cut the cell one after the other. The part outside of a plane is a piece that the
 //    hull does not contain. The part that is left at the end is inside the hull;
 // 2. the pieces are cut by the next hull in the same way;
-// 3. a flat hull holds nothing, but its plane cuts the pieces in two;
+// 3. a flat hull contains no volume, but its plane cuts the pieces in two;
 // 4. since all triangles are in hulls, each remaining piece is completely inside or completely outside of the
 //    solid. Testing one point decides.
 #include "fcl_stpbv/parts/inside_proof.h"
@@ -18,7 +18,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-// What a hull leaves of a cell.
+// Adds the pieces of a cell that a hull does not contain.
 void subtract(const Cell& cell, const HullPlanes& hull, double slack, std::vector<Cell>& out) {
   const auto apart = [&](const CutPlane& plane) { return cell.reach(plane).first >= -slack; };
   if (hull.empty() || std::any_of(hull.begin(), hull.end(), apart)) {
@@ -43,7 +43,7 @@ void subtract(const Cell& cell, const HullPlanes& hull, double slack, std::vecto
   }
 }
 
-// What the hulls leave of a cell. Nothing where that takes too many pieces.
+// The pieces of a cell that no hull contains. No value if there are too many pieces.
 std::optional<std::vector<Cell>> outsideOf(const std::vector<HullPlanes>& hulls, const Cell& cell,
                                            double slack) {
   constexpr std::size_t kMostPieces = 20000;
@@ -59,12 +59,12 @@ std::optional<std::vector<Cell>> outsideOf(const std::vector<HullPlanes>& hulls,
   return pieces;
 }
 
-// Of a piece that is inside the solid or outside as a whole.
+// Whether a piece is outside of the solid. Each piece is completely inside or completely outside.
 bool isOutside(const Cell& piece, const MeshSolid& mesh) {
   return mesh.side(piece.middle()) == MeshSolid::Side::outside;
 }
 
-// The plane of a flat hull, by its largest triangle; none of a line or a point.
+// The plane of a flat hull, from its largest triangle. None for a line or a point.
 HullPlanes planeOf(const PartHull& flat) {
   Vector3d normal = Vector3d::Zero();
   for (const Triangle& t : flat.surface) {
@@ -86,10 +86,11 @@ HullPlanes hullPlanes(const std::vector<Vector3d>& points, double cover) {
   HullPlanes planes;
   for (const Triangle& t : hull.surface) {
     const Vector3d n = (t[1] - t[0]).cross(t[2] - t[0]);
-    if (!(n.norm() > 0)) continue;  // its neighbours bound the hull there
+    if (!(n.norm() > 0)) continue;  // the neighbours bound the hull there
     CutPlane plane{n.normalized(), 0};
     if (plane.normal.dot(middle - t[0]) > 0) plane.normal = -plane.normal;
-    // The farthest vertex, not the triangle's own: where the triangle is a sliver its normal is off.
+    // The offset is that of the farthest vertex, not of the triangle's own vertices, because the normal of a
+    // sliver is inaccurate.
     plane.offset = plane.normal.dot(hull.vertices.front());
     for (const Vector3d& v : hull.vertices) plane.offset = std::max(plane.offset, plane.normal.dot(v));
     plane.offset += cover;

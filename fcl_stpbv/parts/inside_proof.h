@@ -10,12 +10,12 @@
 
 namespace fcl_stpbv::detail {
 
-/// A convex hull as planes with normals outwards. Of a flat one the plane that it lies in alone; none of a
-/// line or a point.
+/// A convex hull as planes with outward normals. A flat hull has only the plane in which it lies. A line or a
+/// point has none.
 using HullPlanes = std::vector<CutPlane>;
 inline bool isFlat(const HullPlanes& hull) { return hull.size() < 4; }
 
-/// The planes of a cloud's hull, moved outwards by `cover` (m) where it is not flat.
+/// The planes of a cloud's hull, moved outwards by `cover` (m) if the hull is not flat.
 HullPlanes hullPlanes(const std::vector<Eigen::Vector3d>& points, double cover);
 
 /// The part of the solid in `cell` that is outside of all hulls, as convex pieces. The hulls together must

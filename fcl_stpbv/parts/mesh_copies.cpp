@@ -16,7 +16,8 @@ namespace {
 
 using Corners = std::array<int, 3>;
 
-// Leaves one triangle of each set of copies, in their order; tells which had some.
+// Leaves one triangle of each set of copies, in their order. @returns for each of these whether it had
+// copies.
 std::vector<char> takeFirsts(std::vector<Corners>& triangles) {
   std::vector<Corners> sorted = triangles;
   for (Corners& t : sorted) std::sort(t.begin(), t.end());

@@ -1,4 +1,4 @@
-// The edges of a mesh's triangles, those between the same two vertices side by side.
+// The edges of a mesh's triangles, sorted so that edges between the same two vertices are neighbours.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 
 namespace fcl_stpbv::detail {
 
-/// One triangle's edge; `forward` where it runs from `low` to `high`.
+/// An edge of one triangle. `forward`: whether it runs from `low` to `high` in the triangle.
 struct MeshEdge {
   int low, high;
   int triangle;
@@ -62,7 +62,7 @@ class MeshEdges {
 
  private:
   std::vector<MeshEdge> edges_;
-  std::vector<std::size_t> run_, runs_;  // which run each is of; where runs begin, and the end
+  std::vector<std::size_t> run_, runs_;  // index of the run of each edge; where each run begins, and the end
   std::vector<std::array<std::size_t, 3>> ofTriangle_;
 };
 

@@ -3,10 +3,13 @@
 //    its corners from one mesh triangle (the distance from a convex set is convex);
 // 2. the distance of the centre is a lower bound for the whole surface;
 // 3. split the triangle with the largest bound until both bounds agree:
-// - a part over one mesh triangle and near enough to it is cut off and finished; - if a few mesh triangles
-//   cross it, it is cut along one of them; - if none does, it is completely inside or completely outside; -
-//   otherwise it is halved across its longest edge. Halving alone would need ten times as many triangles for
-//   each digit, if a hull's face ends at the border of a flat part or leaves the solid.
+//    - a part over one mesh triangle and near enough to it is cut off and finished;
+//    - if a few mesh triangles cross it, it is cut along one of them;
+//    - if none does, it is completely inside or completely outside;
+//    - otherwise it is halved across its longest edge.
+//    Halving alone would need ten times as many triangles for each digit, if a hull's face ends at the border
+//    of a
+//    flat part or leaves the solid.
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
@@ -117,7 +120,7 @@ class Bound {
     return bound <= best_.lower * (1 + options_.relative) + options_.absolute;
   }
 
-  // Of a polygon from the mesh's triangle `near`: the distance is largest at a corner.
+  // Largest distance of a polygon from the mesh's triangle `near`. It is reached at a corner.
   template <class Polygon>
   double farthest(const Polygon& polygon, int near) const {
     double most = 0;
@@ -143,7 +146,7 @@ class Bound {
     piece.near = near;
     double here = distance;
     if (inside_ && distance > best_.lower && mesh_.side(middle) == MeshSolid::Side::enclosed) {
-      here = 0;  // and so all around that is nearer than the surface
+      here = 0;  // all points around the middle that are nearer to it than the surface are inside too
       piece.bound = std::min(piece.bound, std::max(0.0, radius - distance));
     }
     if (here > best_.lower) {
@@ -173,17 +176,17 @@ class Bound {
       add({of.bound, {ring[0], ring[k], ring[k + 1]}, of.near, of.root});
   }
 
-  // Cuts off what lies over the piece's mesh triangle, where all of that is near enough to it: the distance
-  // from it is largest at a corner. False where that is little of the piece.
+  // Cuts off the part that lies over the piece's mesh triangle, if all of that part is near enough to it. The
+  // distance from it is largest at a corner. False if that part is only a small share of the piece.
   bool carve(const Open& piece) {
-    constexpr double kWorth = 0.1;  // of the piece's area: less is no better than halves
+    constexpr double kWorth = 0.1;  // share of the piece's area: cutting off less is no better than halving
     const Triangle& m = mesh_.triangles()[at(piece.near)];
     const Vector3d normal = (m[1] - m[0]).cross(m[2] - m[0]);
     if (!(normal.norm() > 0)) return false;
     const Triangle& t = piece.corners;
     const double area = CutTriangle(t).area(), worth = kWorth * area;
     if (!(area > slack_ * ((t[1] - t[0]).norm() + (t[2] - t[0]).norm())))
-      return false;  // a needle stays whole
+      return false;  // a needle is not cut
     if (0.5 * normal.norm() < worth) return false;
     std::array<CutTriangle, 3> outside;
     CutTriangle over(piece.corners);
@@ -207,7 +210,7 @@ class Bound {
     const Triangle& t = piece.corners;
     const Vector3d normal = (t[1] - t[0]).cross(t[2] - t[0]).normalized();
     const Vector3d middle = (t[0] + t[1] + t[2]) / 3;
-    double inner = kInfinity, outer = 0;  // radii about the middle
+    double inner = kInfinity, outer = 0;  // radii of circles about the middle
     for (std::size_t k = 0; k < 3; ++k) {
       inner = std::min(inner, normal.cross(t[(k + 1) % 3] - t[k]).normalized().dot(middle - t[k]));
       outer = std::max(outer, (t[k] - middle).norm());
@@ -229,14 +232,14 @@ class Bound {
     return settle(piece, std::min(piece.bound, bound));
   }
 
-  static constexpr int kMostCrossings = 8;  // beyond, halves are better
+  static constexpr int kMostCrossings = 8;  // if there are more, halving is better
   struct Touching {
-    bool above = false, below = false, flat = false;  // where triangles are that touch the piece
-    int crossings = 0, crossing = -1;  // how many cross it, and the one of the largest part in it
+    bool above = false, below = false, flat = false;  // sides on which triangles touch the piece
+    int crossings = 0, crossing = -1;  // number of triangles that cross it; the one with most area in it
   };
 
-  // What closed pieces' triangles do in the prism over a triangle made smaller.
-  // Within 4 slack of its plane they touch it.
+  // How triangles of closed pieces meet the prism over a slightly smaller triangle. Triangles within 4 slack
+  // of its plane touch it.
   Touching touching(const Triangle& t, const Vector3d& normal, const Vector3d& middle, double smaller) const {
     Touching found;
     double largest = 0;
@@ -288,7 +291,7 @@ class Bound {
 
   void split(const Open& piece) {
     if (carve(piece) || (inside_ && settleInside(piece))) return;
-    const Triangle& t = piece.corners;  // across the longest edge
+    const Triangle& t = piece.corners;  // halve across the longest edge
     std::size_t k = 0;
     for (std::size_t e = 1; e < 3; ++e)
       if ((t[(e + 1) % 3] - t[e]).squaredNorm() > (t[(k + 1) % 3] - t[k]).squaredNorm()) k = e;
@@ -304,11 +307,11 @@ class Bound {
   std::vector<TriangleExcess> own_;  // of the roots, where there is no `known`
   std::vector<Root> roots_;
   bool inside_;
-  double slack_;  // far above rounding, far below what anybody asks for (m)
+  double slack_;  // far above rounding, far below any requested accuracy (m)
   MeshExcess best_;
   std::vector<Open> open_;
   long queries_ = 0;
-  int last_ = -1;  // the mesh's triangle that was nearest last
+  int last_ = -1;  // the mesh's triangle that was nearest in the last query
 };
 
 }  // namespace

@@ -20,7 +20,7 @@ namespace {
 
 using namespace detail;
 
-// Numbers for the points, equal ones sharing one.
+// Numbers the points; equal points get the same number.
 std::vector<int> weld(const std::vector<Eigen::Vector3d>& points, std::vector<Eigen::Vector3d>& distinct) {
   std::vector<int> order(points.size()), number(points.size());
   std::iota(order.begin(), order.end(), 0);
@@ -70,7 +70,7 @@ class Taker {
  private:
   static bool isLine(const std::array<int, 3>& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; }
 
-  // The other one of just two triangles that share an edge; sheets do not count.
+  // Finds for each edge the other one, if exactly two triangles share it. Sheets do not count.
   void findPartners() {
     partner_.assign(edges_.size(), -1);
     std::vector<std::size_t> users;
@@ -151,8 +151,9 @@ class Taker {
     }
   }
 
-  // A triangle with two equal corners is the edge of another, or a piece of its own; so is a point of no
-  // triangle. A point has no inside that it could leave open.
+  // A triangle with two equal corners is dropped if it is an edge of another triangle. Otherwise it becomes a
+  // piece of its own, and so does a point that no triangle uses. A point counts as closed, because it has no
+  // inside.
   void addLines() {
     for (const std::array<int, 3>& line : lines_) {
       const auto [low, high] = std::minmax_element(line.begin(), line.end());
@@ -165,10 +166,10 @@ class Taker {
 
   MeshPieces out_;
   std::vector<std::array<int, 3>> lines_;
-  std::vector<char> sheet_;  // of each triangle
+  std::vector<char> sheet_;  // for each triangle
   MeshEdges edges_;
-  std::vector<int> partner_;  // of each edge, or -1
-  std::vector<char> turned_;  // of each triangle
+  std::vector<int> partner_;  // partner of each edge, or -1
+  std::vector<char> turned_;  // for each triangle
 };
 
 }  // namespace

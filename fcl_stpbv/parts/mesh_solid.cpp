@@ -21,7 +21,7 @@ using Eigen::Vector3d;
 
 using detail::at;
 
-// Directions for rays: none along an axis or a plane that a designer would choose.
+// Directions for rays. None is along an axis or a plane that a designer would choose.
 const std::array<Vector3d, 8>& rayDirections() {
   static const std::array<Vector3d, 8> directions = [] {
     std::array<Vector3d, 8> list;
@@ -41,7 +41,7 @@ enum class RayHit { none, up, down, unclear };
 // Whether the ray from the origin along `d` crosses a triangle, and which way the triangle faces it. `scale`
 // bounds the corners' coordinates.
 RayHit rayHit(const Vector3d& a, const Vector3d& b, const Vector3d& c, const Vector3d& d, double scale) {
-  constexpr double kRounding = 1e-14;  // a generous few units in the last place of products of three
+  constexpr double kRounding = 1e-14;  // units in the last place of products of three, rounded up
   const double area = kRounding * scale * scale, volume = kRounding * scale * scale * scale;
   const std::array<double, 3> w{d.dot(b.cross(c)), d.dot(c.cross(a)), d.dot(a.cross(b))};
   const auto [least, most] = std::minmax_element(w.begin(), w.end());
@@ -51,7 +51,7 @@ RayHit rayHit(const Vector3d& a, const Vector3d& b, const Vector3d& c, const Vec
   if (!up && !down) return RayHit::unclear;
   const double height = a.dot(b.cross(c));
   if (std::abs(height) <= volume) return RayHit::unclear;
-  if ((height > 0) != up) return RayHit::none;  // behind
+  if ((height > 0) != up) return RayHit::none;  // the crossing is behind
   return up ? RayHit::up : RayHit::down;
 }
 
@@ -65,7 +65,8 @@ double turnsAround(const Vector3d& a, const Vector3d& b, const Vector3d& c) {
 }  // namespace
 
 MeshSolid::Foot::Foot(const Triangle& triangle) : a(triangle[0]), u(triangle[1] - a), v(triangle[2] - a) {
-  constexpr double kThin = 1e-6;  // sine of the angle below which rounding says beyond which sides a foot is
+  // Sine of the angle. Below it, rounding decides beyond which sides a foot is.
+  constexpr double kThin = 1e-6;
   const Vector3d n = u.cross(v);
   const double n2 = n.squaredNorm();
   isThin = !(n2 > kThin * kThin * u.squaredNorm() * v.squaredNorm());
@@ -84,7 +85,7 @@ double MeshSolid::Foot::squaredDistance(const Vector3d& p) const {
   const double beta = w.dot(alongU), gamma = w.dot(alongV), alpha = 1 - beta - gamma;
   double least = detail::kInfinity;
   if (alpha >= 0 && beta >= 0 && gamma >= 0) least = (w - beta * u - gamma * v).squaredNorm();
-  // Else the nearest point is on a side beyond which the foot is.
+  // Otherwise the nearest point is on one of the sides beyond which the foot lies.
   if (isThin || gamma < 0) least = std::min(least, fromSegment(w, u));
   if (isThin || beta < 0) least = std::min(least, fromSegment(w, v));
   if (isThin || alpha < 0) least = std::min(least, fromSegment(w - u, v - u));
@@ -137,7 +138,7 @@ MeshSolid::Nearest MeshSolid::nearest(const Vector3d& p, int guess, double enoug
     const Node& n = nodes_[at(node)];
     return (n.low - p).cwiseMax(p - n.high).cwiseMax(0.0).squaredNorm();
   };
-  std::array<std::pair<double, int>, 64> open;  // halved at each level: no deeper than 32
+  std::array<std::pair<double, int>, 64> open;  // each level halves the triangles: 32 levels at most
   std::size_t count = 0;
   open[count++] = {away(0), 0};
   while (count > 0 && best > near2) {
@@ -164,7 +165,7 @@ double MeshSolid::distance(const Vector3d& p, int triangle) const {
 
 template <class Misses, class Visit>
 bool MeshSolid::each(const Misses& misses, const Visit& visit) const {
-  std::array<int, 64> open;  // halved at each level: no deeper than 32
+  std::array<int, 64> open;  // each level halves the triangles: 32 levels at most
   std::size_t count = 0;
   open[count++] = 0;
   while (count > 0) {
@@ -192,7 +193,7 @@ bool MeshSolid::within(const Vector3d& low, const Vector3d& high,
 template <class Visit>
 bool MeshSolid::alongRay(const Vector3d& p, const Vector3d& direction, Visit visit) const {
   const Vector3d inverse = direction.cwiseInverse();
-  const double slack = 1e-12 * (high() - low()).norm();  // boxes a little larger: no triangle is missed
+  const double slack = 1e-12 * (high() - low()).norm();  // enlarges boxes, so that no triangle is missed
   return each(
       [&](const Node& node) {
         const Vector3d s = (node.low.array() - slack - p.array()) * inverse.array();
@@ -204,7 +205,7 @@ bool MeshSolid::alongRay(const Vector3d& p, const Vector3d& direction, Visit vis
 
 MeshSolid::Side MeshSolid::side(const Vector3d& p, const Vector3d& direction) const {
   const double scale = (high() - p).cwiseAbs().cwiseMax((p - low()).cwiseAbs()).norm();
-  std::vector<std::pair<int, int>> counts;  // crossings of each piece met, up less down
+  std::vector<std::pair<int, int>> counts;  // for each piece met: crossings upwards minus crossings downwards
   const bool clear = alongRay(p, direction, [&](int t) {
     const int piece = pieces_.piece[at(t)];
     if (!pieces_.closed[at(piece)]) return true;

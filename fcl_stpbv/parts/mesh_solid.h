@@ -91,20 +91,23 @@ class MeshSolid {
  private:
   struct Node {
     Eigen::Vector3d low, high;
-    int triangle;  // a leaf's
+    int triangle;  // for a leaf
     int left = -1, right = -1;
   };
-  /// A triangle, as distances from it are computed. To rounding, and never too small by more than that.
+  /// A triangle in the form in which distances from it are computed. They are exact up to
+  /// rounding, and never too small by more than that.
   struct Foot {
     Eigen::Vector3d a, u, v;  ///< a corner, and from there to the others (m)
-    /// Times p - a they are the barycentric coordinates of p's foot; NaN without a plane.
+    /// The products of these with p - a are barycentric coordinates of p's foot. NaN if the triangle has no
+    /// plane.
     Eigen::Vector3d alongU, alongV;
-    bool isThin;  ///< rounding may say that a foot inside is beyond a side
+    bool isThin;  ///< whether rounding may put a foot that is inside beyond a side
     explicit Foot(const Triangle& triangle);
     double squaredDistance(const Eigen::Vector3d& p) const;
   };
   int build(std::vector<int>::iterator begin, std::vector<int>::iterator end);
-  /// The triangles in boxes that are not missed, until `visit` returns false. @returns whether it never did.
+  /// Visits the triangles in boxes that `misses` does not exclude, until `visit` returns false. @returns
+  /// whether `visit` never returned false.
   template <class Misses, class Visit>
   bool each(const Misses& misses, const Visit& visit) const;
   template <class Visit>
@@ -113,7 +116,7 @@ class MeshSolid {
 
   MeshPieces pieces_;
   std::vector<Triangle> triangles_;
-  std::vector<Foot> feet_;  // of the triangles
+  std::vector<Foot> feet_;  // one for each triangle
   std::vector<Node> nodes_;
 };
 
@@ -157,7 +160,7 @@ struct MeshExcess {
 MeshExcess excessOf(const std::vector<Triangle>& surface, const MeshSolid& mesh,
                     const ExcessOptions& options = {});
 
-/// The same for the surface of the convex hull of a cloud (m).
+/// excessOf() for the surface of the convex hull of a cloud (m).
 /// @throws Error as hullTriangles() does.
 MeshExcess hullExcess(const std::vector<Eigen::Vector3d>& points, const MeshSolid& mesh,
                       const ExcessOptions& options = {});

@@ -1,7 +1,9 @@
 // One part during the search.
-// 1. Its hull is that of all points of its leaves; a joined part takes the hull vertices of both.
-// 2. Its excess over the mesh (mesh_solid.h) is measured only as well as the search needs it.
-// 3. A cut clips each leaf's triangles (Sutherland-Hodgman) and its cell by the plane. A leaf with
+// 1. Its hull is the hull of all points of its leaves. A joined part uses the hull vertices of both parts.
+// 2. Its excess over the mesh (mesh_solid.h) is measured only as accurately as the search needs.
+// 3. A cut clips each leaf's triangles (Sutherland-Hodgman) and its cell by the plane. A leaf with triangles
+// on one
+//    side only is not clipped.
 //    triangles on one side only is not clipped.
 #include "fcl_stpbv/parts/part.h"
 
@@ -23,7 +25,7 @@ double costOf(const MeshSolid& mesh) {
   constexpr std::size_t kTries = 200;
   const std::vector<Vector3d>& v = mesh.pieces().vertices;
   long tried = 0;
-  for (std::size_t i = 0; i < kTries; ++i)  // between two corners from all over the mesh
+  for (std::size_t i = 0; i < kTries; ++i)  // from points between two corners from all over the mesh
     mesh.nearest(0.5 * (v[i * 7919 % v.size()] + v[(i * 104729 + v.size() / 2) % v.size()]), -1, 0, &tried);
   return std::max(1.0, static_cast<double>(tried) / (kTries * kUsual));
 }
@@ -50,7 +52,7 @@ void measureAgain(Part& part, const PartSpace& space, const Measure& measure) {
   part.excess = excessOf(part.hull.surface, space.mesh, options, *space.known);
   if (part.queries == 0) {
     part.resolution = options.absolute;
-  } else {  // both measures hold
+  } else {  // both measurements are valid bounds
     part.excess.upper = std::min(part.excess.upper, before.upper);
     if (before.lower > part.excess.lower) part.excess.lower = before.lower, part.excess.where = before.where;
     part.resolution = std::min(part.resolution, options.absolute);

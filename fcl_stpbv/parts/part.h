@@ -15,7 +15,7 @@
 
 namespace fcl_stpbv::detail {
 
-/// What the search works on: the mesh, and lengths that follow from its size.
+/// The data that the search works on: the mesh, and lengths that follow from its size.
 struct PartSpace {
   const MeshSolid& mesh;
   double size;                         ///< of the box around the mesh (m)
@@ -30,15 +30,15 @@ struct PartSpace {
 };
 
 /// A leaf of the binary space partition (BSP) that the cuts make: the mesh's triangles in it, and the corners
-/// of its cell that are inside the solid. Or a facet of the mesh, or what cuts left of one, or a convex piece
-/// of the inside, by its corners: these have no cell.
+/// of its cell that are inside the solid. A leaf may also be a facet of the mesh, or a remainder of one after
+/// cuts, or a convex piece of the inside, given by its corners. These have no cell.
 struct BspLeaf {
   TriangleSoup soup;
   Cell cell;
   std::vector<Eigen::Vector3d> corners;
-  std::vector<CutPlane> path;  ///< the cuts that made it, normals towards it
+  std::vector<CutPlane> path;  ///< the cuts that made the leaf, with normals towards it
   bool isFacet = false;
-  int group = 0;  ///< the group of the mesh's pieces that it was cut from
+  int group = 0;  ///< the group of the mesh's pieces from which it was cut
 };
 
 using BspLeaves = std::vector<std::shared_ptr<const BspLeaf>>;
@@ -48,9 +48,9 @@ struct Part {
   BspLeaves leaves;
   PartHull hull;
   MeshExcess excess;
-  double resolution = 0;  ///< that the excess is known to (m), if `queries` were enough
-  long queries = 0;       ///< of distances that its last measure could spend
-  double judged = -1;     ///< bound (m) of which it was last measured whether it is within
+  double resolution = 0;  ///< accuracy of the known excess (m), if `queries` were enough
+  long queries = 0;       ///< number of distances that the last measurement could use
+  double judged = -1;     ///< bound (m) for which it was last measured whether the excess is within it
 };
 
 using PartPtr = std::shared_ptr<Part>;
@@ -61,7 +61,7 @@ struct Measure {
   double resolution;
   double enough = std::numeric_limits<double>::infinity();
   long queries = 1000;
-  double relative = 0.1;  ///< part of the excess that the resolution grows by
+  double relative = 0.1;  ///< share of the excess that is added to the resolution
 };
 
 /// Measures a part's excess anew.
@@ -70,7 +70,7 @@ void measureAgain(Part& part, const PartSpace& space, const Measure& measure);
 /// The part of these leaves.
 Part makePart(BspLeaves leaves, const PartSpace& space, const Measure& measure);
 
-/// Likewise, where the hull of the leaves' triangles is known.
+/// The part of these leaves, if the hull of their triangles is known.
 Part makePart(BspLeaves leaves, PartHull hull, const PartSpace& space, const Measure& measure);
 
 /// The hull of two parts together.
@@ -83,12 +83,12 @@ std::pair<BspLeaves, BspLeaves> cut(const Part& part, const CutPlane& plane, con
 /// The hulls of the triangles that cut() would leave on either side, without making the leaves.
 struct CutHulls {
   PartHull above, below;
-  /// Sum of their volumes, and up to 0.2 % more the longer they are: no single cut lowers the volume of a
-  /// ring's hull, and cuts across it lead on (m^3).
+  /// Sum of their volumes, increased by up to 0.2 % for longer hulls (m^3). The reason: no single cut lowers
+  /// the volume of a ring's hull, but cuts across the ring help later cuts.
   double volume = 0;
 };
 
-/// Nothing where the plane leaves nothing on one side.
+/// The hulls for a cut. No value if the plane leaves nothing on one side.
 std::optional<CutHulls> hullsOfCut(const Part& part, const CutPlane& plane, const PartSpace& space);
 
 }  // namespace fcl_stpbv::detail

@@ -1,5 +1,5 @@
-// Convex hulls during the search, by quickhull (quickhull.h) with planes in double precision. Where points
-// are flat to rounding the rolling ball takes over, which is exact and ten times as slow.
+// Computes convex hulls during the search by quickhull (quickhull.h), with planes in double precision. If
+// points are flat up to rounding, the rolling ball is used, which is exact and takes ten times as long.
 #include "fcl_stpbv/parts/part_hull.h"
 
 #include <Eigen/Geometry>
@@ -15,14 +15,14 @@ namespace {
 
 using Eigen::Vector3d;
 
-// The half space under three points. What is above it by no more than rounding is on it, so that the points
-// of a cut, which are level to rounding, make no slivers.
+// The half space under three points. Points above it by no more than rounding count as on it. So the points
+// of a cut, which are in one plane up to rounding, make no slivers.
 class HalfSpace {
  public:
   HalfSpace() = default;
   HalfSpace(const Vector3d& a, const Vector3d& b, const Vector3d& c, double extent) : anchor_(a) {
-    constexpr double kRounding = 1e-14;  // of the extent: coordinates' own, and that of heights
-    constexpr double kThin = 1e-4;       // a thinner triangle says too little of its plane
+    constexpr double kRounding = 1e-14;  // share of the extent: the rounding of coordinates and of heights
+    constexpr double kThin = 1e-4;       // the plane of a thinner triangle is too inaccurate
     const Vector3d u = b - a, v = c - a, n = u.cross(v);
     const double length = n.norm();
     normal_ = n / length;
@@ -36,7 +36,7 @@ class HalfSpace {
 
  private:
   Vector3d anchor_{0, 0, 0}, normal_{0, 0, 0};
-  double onIt_ = 0;  // heights that rounding may make (m)
+  double onIt_ = 0;  // heights up to this may be rounding (m)
 };
 
 bool byPlanes(const std::vector<Vector3d>& points, PartHull& out) {

@@ -1,4 +1,4 @@
-// Convex hulls of parts, fast, for the search.
+// Fast convex hulls of parts, for the search.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,11 +12,11 @@ struct PartHull {
   std::vector<Eigen::Vector3d> vertices;
   std::vector<Triangle> surface;
   double volume = 0;  ///< 0 for a flat hull (m^3)
-  /// Of the box around it (m).
+  /// Diagonal of the box around it (m).
   double diagonal() const;
 };
 
-/// To rounding of the coordinates, by quickhull; of flat clouds by the rolling ball.
+/// The hull up to rounding of the coordinates, by quickhull; for flat clouds by the rolling ball.
 PartHull partHull(const std::vector<Eigen::Vector3d>& points);
 
 }  // namespace fcl_stpbv::detail

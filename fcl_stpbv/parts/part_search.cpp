@@ -30,7 +30,8 @@ std::size_t worstOf(const PartSearch::Parts& parts) {
   return static_cast<std::size_t>(std::max_element(parts.begin(), parts.end(), less) - parts.begin());
 }
 
-// Parts to cut into before they are joined to at most `most`. For two, many are not worth their time.
+// Number of parts to cut into before they are joined to at most `most`. If `most` is 2 or 3, many parts are
+// not worth the time.
 std::size_t manyParts(int most) {
   return static_cast<std::size_t>(std::max({most, most < 4 ? 2 * most : 16, std::min(2 * most, 24)}));
 }
@@ -61,7 +62,7 @@ bool PartSearch::isBetter(const Parts& a, const Parts& b) {
 PartSearch::Line PartSearch::line(Parts parts) const {
   Line out;
   out.worst = worstExcess(parts);
-  for (const PartPtr& part : parts) {  // one that was not known well may turn out the worst
+  for (const PartPtr& part : parts) {  // a part that was not measured well may turn out the worst
     const double needed = std::max(0.05 * out.worst, 0.5 * space_.fine);
     if (part->excess.upper > 1.2 * out.worst + space_.fine && needed < 0.7 * part->resolution)
       measureAgain(*part, space_, {needed});
@@ -72,7 +73,8 @@ PartSearch::Line PartSearch::line(Parts parts) const {
   return out;
 }
 
-// The excess of many parts is but a lower bound: those that may be the worst are measured again, well.
+// For many parts the excess is only a lower bound. Parts that may be the worst are measured again,
+// accurately.
 void PartSearch::confirm(const Parts& parts) const {
   const double worst = std::max(worstExcess(parts), space_.fine);
   for (const PartPtr& part : parts)
@@ -80,8 +82,8 @@ void PartSearch::confirm(const Parts& parts) const {
       measureAgain(*part, space_, {std::max(0.05 * worst, 0.5 * space_.fine), kInfinity, kConfirm});
 }
 
-// A part that may be within or not is measured until that is known: an answer that turns out a little too far
-// from the mesh would have to be searched for again.
+// If a part may or may not be within the bound, it is measured until that is known, because a result that
+// turns out to be a little too far from the mesh would have to be searched for again.
 bool PartSearch::isWithin(Part& part, double bound) const {
   const bool open = part.excess.lower <= bound && part.excess.upper > bound;
   if (open && bound > space_.fine && part.judged != bound) {
@@ -106,16 +108,17 @@ PartPtr PartSearch::join(const PartPtr& a, const PartPtr& b, const Measure& meas
     kept_.push_back(b);
     ++spent_;
   } else if (!std::isfinite(found->excess.upper) && excessOf(found) < measure.enough) {
-    measureAgain(*found, space_, measure);  // it was enough then
+    measureAgain(*found, space_, measure);  // the excess was above `enough` in the earlier measurement
   }
   return found;
 }
 
-// The two whose common hull is least far from the mesh, until few are left and no join is within the bound.
+// Joins the two parts whose common hull has the least excess, until few parts are left and no join is within
+// the bound.
 PartSearch::Parts PartSearch::joined(Parts parts, int most, double bound) {
   while (parts.size() > 1) {
     const bool few = parts.size() <= static_cast<std::size_t>(most);
-    double best = few ? bound : kInfinity;  // what the next must be within
+    double best = few ? bound : kInfinity;  // bound on the excess of the next join
     PartPtr both;
     std::size_t first = 0, second = 0;
     const double worst = worstExcess(parts);
@@ -129,7 +132,7 @@ PartSearch::Parts PartSearch::joined(Parts parts, int most, double bound) {
     if (!both) break;
     if (few && both->excess.upper > bound + space_.fine && both->queries < kConfirm) {
       measureAgain(*both, space_, {0.5 * space_.fine, kInfinity, kConfirm});
-      continue;  // it may not be within the bound
+      continue;  // it may turn out not to be within the bound
     }
     if (few && !isWithin(*both, bound)) continue;
     parts[first] = both;
@@ -138,8 +141,8 @@ PartSearch::Parts PartSearch::joined(Parts parts, int most, double bound) {
   return line(std::move(parts)).parts;
 }
 
-// One more part in each line: the ways to cut the worst, of which those least far from the mesh go on, and
-// those of the least volume.
+// Makes one more part in each line: tries the ways to cut the worst part. The lines with the least excess and
+// those with the least volume continue.
 std::vector<PartSearch::Line> PartSearch::cutOn(const std::vector<Line>& beam) {
   constexpr std::size_t kEach = 2;
   std::vector<Line> next;
@@ -194,7 +197,7 @@ PartSearch::Parts PartSearch::byBeam(const Parts& start, int most) {
   std::vector<Line> beam{line(start)};
   while (!beam.empty() && !isWithin(best) && beam.front().parts.size() < manyParts(most)) {
     if (exhausted() || beam.front().parts.size() >= at(most))
-      beam.resize(1);  // then on to what is joined again
+      beam.resize(1);  // only the best line goes on, up to manyParts()
     beam = cutOn(beam);
     for (const Line& tried : beam) {
       const bool few = tried.parts.size() <= at(most);
@@ -233,7 +236,7 @@ PartSearch::Parts PartSearch::fewByCuts(const Parts& start, int most) {
 }
 
 PartSearch::Parts PartSearch::byCuts(const Parts& start, long work) {
-  constexpr int kFew = 8;  // all four ways to cut are followed for so many
+  constexpr int kFew = 8;  // up to this number of parts, all four ways to cut are followed
   int most = std::min(most_, kFew);
   work_ = spent_ + work;
   Parts best = fewByCuts(start, most);

@@ -27,16 +27,16 @@ class PartSearch {
   /// valid.
   void aim(double bound) { bound_ = std::max(bound, space_.fine); }
 
-  /// From parts that cover all, found by cutting them; `work` is the number of hulls to spend, and as many
-  /// again each time that there may be twice as many parts.
+  /// Cuts parts that cover the whole mesh. `work` is the number of hulls that may be made, and again as many
+  /// each time that the number of parts may double.
   Parts byCuts(const Parts& start, long work);
-  /// The same parts, joined to few, then cut and joined on while that makes the worst of them better; `work`
-  /// is the number of hulls to spend.
+  /// The same parts, joined to few, then cut and joined further as long as that makes the worst of them
+  /// better. `work` is the number of hulls that may be made.
   Parts improved(const Parts& parts, long work);
 
-  /// The largest excess of a part, as far as it is known (m).
+  /// The largest excess of a part, as far as it was measured (m).
   static double worstExcess(const Parts& parts);
-  /// Whether the search would end with these.
+  /// Whether the search would end with these parts.
   bool isEnough(const Parts& parts) const;
   /// Compares the worst parts, with a tolerance of 1 %, then the second worst and so on. This is needed
   /// because a step can improve only one of two equally bad parts.

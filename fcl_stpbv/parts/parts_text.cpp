@@ -1,5 +1,5 @@
-// A line of counts, then for each part its two bounds and its points; `end` tells a
-// whole text from one that was cut off.
+// The format: a line of counts, then for each part its two bounds and its points. The word `end` shows that
+// the text was not cut off.
 #include "fcl_stpbv/parts/parts_text.h"
 
 #include "fcl_stpbv/io/text_scanner.h"
@@ -7,8 +7,8 @@
 namespace fcl_stpbv::detail {
 namespace {
 
-constexpr std::size_t kPointBytes = 6;  // "0 0 0\n"
-constexpr std::size_t kPartBytes = 20;  // two bounds of five numbers
+constexpr std::size_t kPointBytes = 6;  // shortest point: "0 0 0\n"
+constexpr std::size_t kPartBytes = 20;  // shortest part: two bounds of five numbers
 
 void append(std::string& text, const MeshExcess& excess) {
   for (const double bound : {excess.upper, excess.lower}) {

@@ -1,4 +1,4 @@
-// Convex parts as text for the cache; reading gives exactly the same numbers.
+// Convex parts as text for the cache. Reading a text gives exactly the numbers that were written.
 #pragma once
 
 #include <string>

@@ -1,6 +1,6 @@
-// Triangles cut by a plane: each is clipped to the upper side and split into triangles. A
-// crossing is computed once per edge, from the lower index to the higher, so that
-// neighbours and both sides share the same point.
+// Cuts triangles by a plane: clips each to the upper side and splits the result into triangles. A crossing is
+// computed once per edge, from the lower index to the higher, so that neighbours and both sides share the
+// same point.
 #include "fcl_stpbv/parts/plane_cut.h"
 
 #include <Eigen/Geometry>
@@ -25,8 +25,8 @@ class Cutter {
     }
   }
 
-  // Calls `use` with each triangle's corners on or above the plane: a ring of 3 or 4 points by index, cut
-  // ones behind the soup's own.
+  // Calls `use` with each triangle's corners on or above the plane: a ring of 3 or 4 indices. Indices of
+  // crossings come after those of the soup's points.
   template <class Use>
   void run(Use use) {
     std::array<int, 4> ring{};
@@ -49,8 +49,8 @@ class Cutter {
  private:
   signed char side(int point) const { return side_[at(point)]; }
 
-  // Of a triangle on the plane. One without a normal of its own goes to one side all the same, the other one
-  // for the plane turned over.
+  // Whether a triangle on the plane belongs to the upper side. A triangle without a normal belongs to one
+  // side too, and to the other side if the plane is turned over.
   bool bordersAbove(const std::array<int, 3>& t) const {
     const Vector3d &a = soup_.points[at(t[0])], &b = soup_.points[at(t[1])], &c = soup_.points[at(t[2])];
     const Vector3d& n = plane_.normal;
@@ -59,8 +59,8 @@ class Cutter {
     return n.x() != 0 ? n.x() > 0 : n.y() != 0 ? n.y() > 0 : n.z() > 0;
   }
 
-  // From the lower index to the higher, so that both triangles of an edge get the same point, and so do both
-  // sides of the plane.
+  // The crossing of an edge, computed from the lower index to the higher, so that both triangles of an edge
+  // and both sides of the plane get the same point.
   int crossing(int a, int b) {
     const auto key = std::minmax(a, b);
     const long name = static_cast<long>(key.first) * static_cast<long>(soup_.points.size()) + key.second;

@@ -8,17 +8,17 @@
 namespace fcl_stpbv::detail {
 
 struct CutPlane {
-  Eigen::Vector3d normal{0, 0, 1};  ///< unit
+  Eigen::Vector3d normal{0, 0, 1};  ///< unit vector
   double offset = 0;                ///< the plane is normal.x = offset (m)
   double height(const Eigen::Vector3d& p) const { return normal.dot(p) - offset; }
   CutPlane turned() const { return {-normal, -offset}; }
 };
 
-/// Triangles, or what cuts left of them, of one group of a mesh's pieces.
+/// Triangles of one group of a mesh's pieces, or what remains of them after cuts.
 struct TriangleSoup {
   std::vector<Eigen::Vector3d> points;
   std::vector<std::array<int, 3>> triangles;
-  std::vector<int> facet;  ///< of each triangle: which flat part of the mesh it belongs to
+  std::vector<int> facet;  ///< index of the mesh's flat part of each triangle
 };
 
 /// The part of the soup on the side that the normal points to. Corners within `slack` (m) of the plane count
@@ -27,7 +27,7 @@ struct TriangleSoup {
 /// whole soup.
 TriangleSoup above(const TriangleSoup& soup, const CutPlane& plane, double slack);
 
-/// The points of above() alone, in less time.
+/// Only the points of above(), in less time.
 void pointsAbove(const TriangleSoup& soup, const CutPlane& plane, double slack,
                  std::vector<Eigen::Vector3d>& points);
 

@@ -1,4 +1,4 @@
-// The triangles of a mesh in groups, and few triangles in place of many.
+// Groups the triangles of a mesh, and replaces many triangles by few.
 #include "fcl_stpbv/parts/search_mesh.h"
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-// Of the corners in each cell of a grid, the one farthest out stands for all.
+// Of the corners in each cell of a grid, the one farthest from the middle replaces all.
 TriangleSoup coarser(const TriangleSoup& soup, const Vector3d& middle, double grid) {
   std::map<std::array<long, 3>, int> farthest;
   std::vector<int> stands;  // for each corner, an index into the soup's points
@@ -76,7 +76,7 @@ TriangleSoup forSearch(const TriangleSoup& soup, const PartSpace& space) {
   double grid = space.size / 150;
   while (few.triangles.size() > kSearched) {
     TriangleSoup coarse = coarser(soup, middle, grid);
-    if (coarse.triangles.empty()) break;  // nothing but slivers
+    if (coarse.triangles.empty()) break;  // all triangles became slivers
     few = std::move(coarse);
     grid *= few.triangles.size() > 20 * kSearched ? 2.0 : 1.3;
   }
