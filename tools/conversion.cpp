@@ -28,7 +28,7 @@ namespace {
 using namespace detail;
 using Points = std::vector<Eigen::Vector3d>;
 
-// By its first words.
+// Decides by the file's first words.
 bool holdsVolume(const std::string& path) {
   std::string head(256, '\0');
   std::ifstream in(path, std::ios::binary);
@@ -37,7 +37,7 @@ bool holdsVolume(const std::string& path) {
   return looksLikeStpBv(head) || looksLikeSch(head);
 }
 
-// A volume has lost the points that its own radii left inside, so it cannot become that of other radii.
+// A volume no longer has the points that its own radii left inside, so it cannot be converted to other radii.
 void checkSameRadii(const std::string& input, const Radii& radii, const ConversionOptions& options) {
   if (options.advise)
     throw Error(input + ": is an STP-BV already; give the mesh it was made from, or leave out --advise");
@@ -50,7 +50,7 @@ void checkSameRadii(const std::string& input, const Radii& radii, const Conversi
               "; leave out -r, -R and --scale to convert its format, or give the mesh it was made from");
 }
 
-// @throws Error where no radii keep both promises.
+// @throws Error if no radii keep both promises.
 RadiiAdvice advised(const std::string& input, const Points& points, const RadiiTask& task) {
   const RadiiAdvice advice = detail::within(input, [&] { return adviseRadii(points, task); });
   if (advice.meetsBoth) return advice;
@@ -88,8 +88,8 @@ void measureExcess(Report& report, const TriangleMesh& mesh) {
 
 }  // namespace
 
-// Read once: a pipe cannot be read twice. Volumes and polyhedra are texts; a mesh is
-// left to the reader of meshes, which needs a file.
+// Reads the input once, because a pipe cannot be read twice. Volumes and polyhedra are texts. A mesh is left
+// to the reader of meshes, which needs a file.
 Content readInput(const std::string& path, double factor) {
   const Eigen::Vector3d scale = Eigen::Vector3d::Constant(factor);
   const std::string extension = lowerExtension(path);
@@ -100,7 +100,7 @@ Content readInput(const std::string& path, double factor) {
     try {
       return {nullptr, loadMesh(path, scale)};
     } catch (const Error&) {
-      if (!holdsVolume(path)) throw;  // a volume may have any name
+      if (!holdsVolume(path)) throw;  // a volume may have a name of any form
     }
   }
   std::istringstream stream(readText(path));
@@ -203,7 +203,7 @@ std::string toJson(const Report& report) {
   json["build_seconds"] = report.buildSeconds;
   json["verified"] =
       report.verified ? nlohmann::ordered_json(*report.verified) : nlohmann::ordered_json(nullptr);
-  // A file's name may hold bytes that are no UTF-8.
+  // A file's name may contain bytes that are not UTF-8.
   return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 

@@ -1,4 +1,4 @@
-// One input to one STP-BV: what mesh_to_stpbv does with each of its inputs.
+// Converts one input to one STP-BV: what mesh_to_stpbv does with each of its inputs.
 #pragma once
 
 #include <optional>
@@ -20,47 +20,47 @@ struct ConversionOptions {
   std::optional<RadiiTask> advise;  ///< the radii that it leads to, instead
   double scale = 1;
   Format format = Format::stpbv;
-  std::string preview;                ///< mesh to write for a look, none if empty
-  std::optional<PartsOptions> parts;  ///< several volumes for one mesh
+  std::string preview;                ///< file for a mesh of the volume's surface; "" for none
+  std::optional<PartsOptions> parts;  ///< set if one mesh becomes several volumes
   bool verify = false;
   bool measure = true;  ///< compute over-cover and volume for the report
 };
 
-/// What is reported of one input. Lengths in m.
+/// The report about one input. Lengths in m.
 struct Report {
   std::string input, output;
-  std::size_t points = 0;  ///< read from the input
+  std::size_t points = 0;  ///< number of points read from the input
   StpBv::Ptr volume;
-  std::optional<RadiiAdvice> advice;  ///< where it was asked for
-  bool fitted = false;                ///< r or R fits the input's size
+  std::optional<RadiiAdvice> advice;  ///< set if it was requested
+  bool fitted = false;                ///< whether r or R was fitted to the input's size
   OverCover overCover{};
   double cubicMetres = 0;
-  /// Most that the volume exceeds the mesh by: what it encloses, or its triangles
-  /// alone (m); none for what has no triangles.
+  /// Upper bounds on how far the volume exceeds the mesh: the solid that the mesh encloses, or its triangles
+  /// alone (m). No value if the input has no triangles.
   std::optional<double> excessMax, openExcessMax;
-  double buildSeconds = 0;       ///< 0 for what is a volume already
-  std::optional<bool> verified;  ///< set where it was asked for
-  std::string verification;      ///< what is wrong with a volume that is not verified
+  double buildSeconds = 0;       ///< 0 if the input is a volume already
+  std::optional<bool> verified;  ///< set if it was requested
+  std::string verification;      ///< what is wrong with a volume that failed the check
 };
 
-/// What an input holds: a volume, or else points, of a mesh with its triangles.
+/// The contents of an input: a volume, or points, with triangles if it is a mesh.
 struct Content {
   StpBv::Ptr volume;
   TriangleMesh mesh;
 };
 
-/// Reads a mesh, a cloud of points or a volume, told by its content; `scale` does not count for a volume.
+/// Reads a mesh, a cloud of points or a volume, recognised by its content. `scale` is ignored for a volume.
 /// @throws Error naming the input and what would work.
 Content readInput(const std::string& path, double scale);
 
-/// The r and R that the options say for these points, but for what `advise` leads to.
+/// The r and R that the options give for these points, without the effect of `advise`.
 StpBvOptions radiiFor(const std::vector<Eigen::Vector3d>& points, const ConversionOptions& options);
 
-/// The same, made into an STP-BV. Writes nothing.
+/// Reads an input and makes it an STP-BV. Writes nothing.
 /// @throws Error naming the input and what would work.
 Report convert(const std::string& input, const ConversionOptions& options);
 
-/// Writes what convert() made: the volume and, if asked for, its preview.
+/// Writes the result of convert(): the volume and, if requested, its preview.
 void write(const Report& report, const ConversionOptions& options);
 
 /// Some lines for people to read.

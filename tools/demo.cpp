@@ -1,4 +1,4 @@
-// demo: the HRP-2-style robot from its meshes to distances and gradients, next to what plain FCL says.
+// demo: the HRP-2-style robot from its meshes to distances and gradients, compared with plain FCL's answers.
 #include <fcl/narrowphase/distance.h>
 
 #include <algorithm>
@@ -21,7 +21,7 @@ using namespace fcl_stpbv::tools;
 
 constexpr double kMm = 1e3;
 constexpr double kDegree = 180 / M_PI;
-// FCL's default tolerance; what it is off by beyond this is not rounding.
+// FCL's default tolerance. A larger error is not rounding.
 constexpr double kFclTolerance = 1e-6;
 
 double seconds(std::chrono::steady_clock::time_point since) {
@@ -37,7 +37,7 @@ struct PlainFcl {
   Eigen::Vector3d normal;
 };
 
-// As a user of FCL would ask: the same polyhedra, default settings.
+// The query that a user of FCL would make: the same polyhedra, default settings.
 PlainFcl plainFcl(const fcl::CollisionObjectd& a, const fcl::CollisionObjectd& b) {
   fcl::DistanceRequestd request;
   request.enable_nearest_points = true;
@@ -46,7 +46,7 @@ PlainFcl plainFcl(const fcl::CollisionObjectd& a, const fcl::CollisionObjectd& b
   return {result.min_distance, (result.nearest_points[1] - result.nearest_points[0]).normalized()};
 }
 
-// Distance of the hulls with a certificate, to tell which of the two is off.
+// Distance of the hulls with a certificate, to decide which of the two answers is wrong.
 double hullDistance(const fcl::CollisionObjectd& a, const fcl::CollisionObjectd& b) {
   const StpBvGeometry* first = asStpBv(a.collisionGeometry().get());
   const StpBvGeometry* second = asStpBv(b.collisionGeometry().get());
@@ -135,8 +135,8 @@ void printPairs(const PosedRobot& posed, const Kinematics& kinematics, const Rob
       rows.size(), wrong ? formatted("%d, by up to %.3f mm", wrong, worst * kMm).c_str() : "none");
 }
 
-// A random posture with the left limbs as the mirror image of the right
-// ones: what humanoids stand and walk in.
+// A random posture in which the left limbs are the mirror image of the right ones, as humanoids often stand
+// and walk.
 Eigen::VectorXd mirrored(const Kinematics& kinematics, std::mt19937_64& random) {
   Eigen::VectorXd q = kinematics.neutral();
   for (int i = 0; i < kinematics.size(); ++i) {
@@ -214,7 +214,7 @@ int run(const std::string& urdf, const std::string& srdfPath, const std::string&
   const auto robot = std::make_shared<const RobotModel>(loadUrdf(urdf));
   const Srdf srdf = loadSrdf(srdfPath, *robot);
   GeometryOptions options;
-  options.cacheFolder.clear();  // the demo shows the conversion
+  options.cacheFolder.clear();  // so that the demo shows the conversion
   const RobotGeometry geometry = loadGeometry(*robot, options);
   const double built = seconds(start);
 

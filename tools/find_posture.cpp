@@ -1,5 +1,5 @@
-// find_posture: joint values for a task, free of collisions, or which of
-// its constraints cannot hold together.
+// find_posture: finds joint values for a task, free of collisions, or the constraints that contradict each
+// other.
 #include <algorithm>
 #include <memory>
 #include <tuple>
@@ -70,7 +70,8 @@ void describe(Program& app, Arguments& a) {
   app.flag("-q,--quiet", a.quiet, "No warnings");
 }
 
-// The pairs that a posture found without them brings nearer than the margin, as warnings.
+// Warnings about the pairs that are nearer than the margin in a posture that was found without collisions
+// constraints.
 std::vector<std::string> collisionsOf(const PostureReport& report) {
   std::vector<std::string> list;
   const double margin = report.task.collisionMargin;
@@ -81,14 +82,14 @@ std::vector<std::string> collisionsOf(const PostureReport& report) {
   return list;
 }
 
-// @return the links' parts, where any are asked for.
+// @return the links' parts, if any are requested.
 std::unique_ptr<PostureParts> load(const Arguments& a, PostureReport& report) {
   RobotFiles files = filesOf(a.robot);
   files.base = report.task.base;
   RobotLoader loader(files);
   loader.read();
   loader.build();
-  requireNoInput("-o", a.output, loader.meshFiles());  // of a robot from a pipe, too
+  requireNoInput("-o", a.output, loader.meshFiles());  // also for the meshes of a robot from a pipe
   PostureScene& scene = report.scene;
   scene.robot = loader.robot();
   scene.srdf = loader.srdf();
@@ -96,7 +97,7 @@ std::unique_ptr<PostureParts> load(const Arguments& a, PostureReport& report) {
   scene.obstacles = loader.obstacles();
   if (!scene.srdf) scene.selfPairs = searchedPairs(scene.robot, scene.geometry);
   std::tie(report.task, scene) =
-      withBaseAtOrigin(report.task, scene);  // all that follows takes it from there
+      withBaseAtOrigin(report.task, scene);  // the following code uses the base's frame
   report.warnings = loader.warnings();
   if (!report.task.saysBase)
     report.warnings.push_back(a.task +

@@ -12,7 +12,7 @@ namespace fcl_stpbv::tools {
 namespace {
 
 constexpr std::size_t kMostColumns = 100;
-constexpr std::size_t kNarrow = 70;  // from here on the second column has room for some words
+constexpr std::size_t kNarrow = 70;  // with fewer columns the second column has no room for words
 constexpr std::size_t kSecond = 30, kBelow = 8;
 
 }  // namespace
@@ -60,7 +60,7 @@ std::string entry(const std::string& option, const std::string& help, std::size_
   const std::size_t column = columns < kNarrow ? kBelow : kSecond;
   const std::string name = "  " + option;
   if (help.empty()) return name + "\n";
-  const bool beside = name.size() + 2 <= column;  // two spaces, so that they can be told apart
+  const bool beside = name.size() + 2 <= column;  // two spaces separate the name from the help
   return name + (beside ? std::string(column - name.size(), ' ') : "\n" + std::string(column, ' ')) +
          wrapped(help, columns, column, column) + "\n";
 }

@@ -122,7 +122,7 @@ void describe(Program& app, Arguments& arguments) {
   app.flag("-q,--quiet", arguments.quiet, "No report for people and no progress bar; errors are still told");
 }
 
-// What became of one input: lines for standard output and for standard error.
+// The result of one input: lines for standard output and for standard error.
 struct Outcome {
   bool good = false;
   std::string report, complaint;
@@ -169,17 +169,18 @@ Outcome runJob(const Job& job, const Arguments& arguments) {
   }
 }
 
-// Does all jobs and tells what became of them in their order, however many threads
-// share them. @return how many failed.
+// Does all jobs and reports their results in their order, whatever the number of threads. @return how many
+// failed.
 std::size_t runAll(const std::vector<Job>& jobs, const Arguments& arguments) {
-  // Where a volume goes to standard output nothing else does.
+  // If a volume goes to standard output, nothing else does.
   std::ostream& reports = isStandardOutput(arguments.output) ? std::cerr : std::cout;
   ProgressBar bar(jobs.size(), !arguments.quiet);
   std::vector<std::optional<Outcome>> outcomes(jobs.size());
   std::size_t done = 0, told = 0, failed = 0;
   std::mutex telling;
   const auto show = [&](const std::string& input) {
-    bar.show(done, std::filesystem::path(input).filename().string());  // the folder leaves it no room
+    // Without the folder, which would take the name's place.
+    bar.show(done, std::filesystem::path(input).filename().string());
   };
   show(jobs.front().input);
   fcl_stpbv::detail::shareOut(jobs.size(), std::min(arguments.jobs, kMostJobs), [&](std::size_t i) {
@@ -200,7 +201,7 @@ std::size_t runAll(const std::vector<Job>& jobs, const Arguments& arguments) {
   return failed;
 }
 
-// What the options say of parts, nothing if they say nothing.
+// The options about parts. No value if there are none.
 std::optional<fcl_stpbv::PartsOptions> partsOf(const Arguments& arguments) {
   if (!arguments.parts && !arguments.excess) {
     if (arguments.effort) throw UsageError("--effort: goes with --parts or --excess");
@@ -213,7 +214,7 @@ std::optional<fcl_stpbv::PartsOptions> partsOf(const Arguments& arguments) {
   return options;
 }
 
-// The folders that have to be made for `folder`, innermost first.
+// The folders that must be created for `folder`, innermost first.
 std::vector<std::filesystem::path> missingFolders(std::filesystem::path folder) {
   std::vector<std::filesystem::path> missing;
   std::error_code ignored;

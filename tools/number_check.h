@@ -15,15 +15,16 @@
 namespace fcl_stpbv::tools {
 
 using fcl_stpbv::detail::kLargestR;
-/// Longer than anything that a robot does (m, s).
+/// Larger than any length or time of a robot (m, s).
 constexpr double kLargest = 1e6;
 
-/// What is wrong with `text` as a number from `least` to `most`, "" if nothing is; `least` itself is in the
-/// range only where `orEqual`.
+/// The reason why `text` is not a number from `least` to `most`, "" if it is one. `least` itself is allowed
+/// only with `orEqual`.
 inline std::string wrongNumber(const std::string& text, double least, double most, bool orEqual = true) {
   char* end = nullptr;
   const double value = std::strtod(text.c_str(), &end);
-  const bool decimal = text.find_first_of("xX") == std::string::npos;  // strtod reads hexadecimals, too
+  // strtod() also reads hexadecimal numbers.
+  const bool decimal = text.find_first_of("xX") == std::string::npos;
   const bool isNumber = !text.empty() && decimal && end == text.c_str() + text.size() && std::isfinite(value);
   const bool lost = isNumber && value == 0 && text.find_first_of("123456789") < text.find_first_of("eE");
   if (isNumber && !lost && value <= most && (orEqual ? value >= least : value > least)) return "";
@@ -32,7 +33,7 @@ inline std::string wrongNumber(const std::string& text, double least, double mos
          (orEqual ? "" : ", the first excluded");
 }
 
-/// The same for a whole number.
+/// wrongNumber() for a whole number.
 inline std::string wrongWholeNumber(const std::string& text, std::uint64_t least, std::uint64_t most) {
   std::uint64_t value = 0;
   const auto result = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -44,7 +45,7 @@ inline std::string wrongWholeNumber(const std::string& text, std::uint64_t least
               : "from " + std::to_string(least) + " to " + std::to_string(most));
 }
 
-/// At the commas: one word more than there are commas.
+/// Splits a text at its commas.
 inline std::vector<std::string> splitAtCommas(const std::string& text) {
   std::vector<std::string> words{""};
   for (const char c : text) {

@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kStandardOutput = "/dev/stdout";
 
-// Asked of names that may not exist or not be reachable; then the answer is no.
+// For names that do not exist or cannot be reached, the answer is no.
 bool isFolder(const fs::path& path) {
   std::error_code ignored;
   return fs::is_directory(path, ignored);
@@ -36,21 +36,22 @@ bool sameFile(const fs::path& a, const fs::path& b) {
   std::error_code ignored;
   if (fs::equivalent(a, b, ignored)) return true;
   const auto place = [&](fs::path path) {
-    constexpr int kMostLinks = 40;  // of a chain, which may end at nothing or go round
+    constexpr int kMostLinks = 40;  // links of a chain, which may end at nothing or be a loop
     for (int links = 0; links < kMostLinks && fs::is_symlink(path, ignored); ++links)
       path = path.parent_path() / fs::read_symlink(path, ignored);
     return fs::weakly_canonical(fs::absolute(path, ignored), ignored);
   };
-  return !place(a).empty() && place(a) == place(b);  // empty where it cannot be told
+  return !place(a).empty() && place(a) == place(b);  // empty if the place cannot be determined
 }
 
-// Written straight (atomic_write.h), so that nothing is replaced, whatever file may be behind it.
+// Whether the path is a descriptor. It is written directly (atomic_write.h), so no file behind it is
+// replaced.
 bool isDescriptor(const fs::path& path) {
   const fs::path folder = path.parent_path();
   return path == kStandardOutput || path == "/dev/stderr" || folder == "/dev/fd" || folder == "/proc/self/fd";
 }
 
-// Those of a glTF that are files of their own. What is wrong with it is told when it is loaded.
+// The buffers of a glTF that are files of their own. Errors in the glTF are reported when it is loaded.
 std::vector<std::string> buffersOf(const std::string& mesh) {
   std::vector<std::string> files;
   if (detail::lowerExtension(mesh) != ".gltf" || !isRegular(mesh)) return files;
@@ -64,12 +65,13 @@ std::vector<std::string> buffersOf(const std::string& mesh) {
   return files;
 }
 
-// What reading the inputs opens. Found out once, when it is asked for: glTFs are parsed for it.
+// The files that reading the inputs opens. They are determined once, when they are first needed, because
+// glTFs must be parsed for that.
 class InputFiles {
  public:
   explicit InputFiles(const std::vector<std::string>& inputs) : inputs_(inputs) {}
 
-  // That writing `target` would replace none of them.
+  // Makes sure that writing `target` replaces none of these files.
   void spare(const std::string& option, const std::string& target) {
     if (!isRegular(target) || isDescriptor(target)) return;
     if (!files_) files_ = found();
@@ -116,7 +118,7 @@ void checkPreview(const std::vector<std::string>& inputs, const std::string& pre
     throw UsageError("--preview " + preview + ": end the name in .obj, .stl, .ply or .glb");
 }
 
-// A volume is written through a symbolic link that has its name, which may lead to the preview.
+// If the volume's name is a symbolic link, the volume is written to its target, which may be the preview.
 void checkVolumeName(const std::string& name, const std::string& preview) {
   if (!preview.empty() && sameFile(preview, name))
     throw UsageError("--preview " + preview + ": is the volume " + name + " itself; give another name");
@@ -124,7 +126,7 @@ void checkVolumeName(const std::string& name, const std::string& preview) {
 
 std::vector<Job> jobsInto(const std::string& folder, const std::vector<std::string>& inputs, Format format) {
   std::vector<Job> jobs;
-  std::map<std::string, std::string> taken;  // output, its input
+  std::map<std::string, std::string> taken;  // the output, and the input that it belongs to
   for (const std::string& input : inputs) {
     const std::string name = fs::path(input).stem().string() + (format == Format::sch ? ".txt" : ".stpbv");
     const std::string target = (fs::path(folder) / name).string();

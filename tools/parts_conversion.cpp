@@ -53,7 +53,7 @@ PartsReport convertToParts(const std::string& input, const std::string& output,
     throw Error(input + ": has no triangles, which parts are made of; give a mesh, which must be a file");
   const auto start = std::chrono::steady_clock::now();
   detail::within(input, [&] {
-    const StpBvOptions radii = radiiFor(content.mesh.vertices, options);  // of the whole mesh, as of a link
+    const StpBvOptions radii = radiiFor(content.mesh.vertices, options);  // for the whole mesh, as for a link
     report.parts = convexParts(content.mesh, *options.parts);
     for (const ConvexPart& part : report.parts.parts) {
       report.volumes.push_back(StpBv::build(part.points, radii));
@@ -67,12 +67,12 @@ PartsReport convertToParts(const std::string& input, const std::string& output,
   report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   for (std::size_t k = 0; k < report.volumes.size(); ++k) {
     report.outputs.push_back(nameOfPart(output, static_cast<int>(k)));
-    checkTarget("-o", report.outputs.back(), {}, force);  // it is no input: plan()
+    checkTarget("-o", report.outputs.back(), {}, force);  // not an input, because plan() has checked that
   }
   return report;
 }
 
-// All texts first: a format may not hold one of the volumes.
+// Makes all texts first, because a format may not be able to represent one of the volumes.
 void write(const PartsReport& report, const ConversionOptions& options) {
   std::vector<detail::NamedText> files;
   std::vector<TriangleMesh> surfaces;
@@ -119,7 +119,7 @@ std::string toJson(const PartsReport& report) {
     part["over_cover_max"] = report.overCovers[k].max;
     json["parts"].push_back(part);
   }
-  // A file's name may hold bytes that are no UTF-8.
+  // A file's name may contain bytes that are not UTF-8.
   return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 

@@ -1,5 +1,4 @@
-// A robot's bodies as FCL objects in one posture, moved with the kinematics,
-// with the check of which pairs count.
+// A robot's bodies as FCL objects in one posture, moved by the kinematics, and the check which pairs count.
 #include "tools/posed_robot.h"
 
 #include <algorithm>
@@ -31,7 +30,7 @@ void PosedRobot::moveTo(const Eigen::VectorXd& q) {
   for (std::size_t i = 0; i < objects_.size(); ++i) {
     const Body& body = geometry_.bodies[i];
     objects_[i]->setTransform(state_.link[static_cast<std::size_t>(body.link)] * body.pose);
-    objects_[i]->computeAABB();  // setTransform leaves the old one
+    objects_[i]->computeAABB();  // setTransform keeps the old box
   }
   manager_.update();
 }

@@ -16,7 +16,7 @@
 
 namespace fcl_stpbv::tools {
 
-/// Each object's user data is its Body. The model and the geometry must outlive it.
+/// Each object's user data is its Body. The model and the geometry must outlive this object.
 class PosedRobot {
  public:
   /// Bodies of one link are never checked against each other, nor are pairs of links that `srdf` leaves out.
@@ -43,7 +43,8 @@ class PosedRobot {
   fcl::DynamicAABBTreeCollisionManagerd manager_;
 };
 
-/// For `manager().distance(&check, selfDistanceCallback)`: our callback, but for the pairs left out.
+/// For `manager().distance(&check, selfDistanceCallback)`: the library's callback, without the pairs that are
+/// left out.
 struct SelfCheck {
   const PosedRobot* robot;
   DistanceData data;

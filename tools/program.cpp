@@ -1,5 +1,5 @@
-// Command lines by CLI11. Its own checks of numbers let NaN through, and take -1 for the largest whole
-// number; number_check.h does neither.
+// Command lines by CLI11. The number checks of CLI11 accept NaN, and read -1 as the largest whole number;
+// those of number_check.h do not.
 #include "tools/program.h"
 
 #include <CLI/CLI.hpp>
@@ -20,14 +20,15 @@
 namespace fcl_stpbv::tools {
 namespace {
 
-constexpr int kWrong = 2;  // a run that tested nothing must not look like one that found nothing
+constexpr int kWrong = 2;  // a run that tested nothing must differ from one that found nothing
 
-constexpr std::size_t kLongWords = 32;  // longer ones are listed in what the help says, which can be wrapped
+// A longer list of words is part of the option's help, which can be wrapped.
+constexpr std::size_t kLongWords = 32;
 
 constexpr const char* kEmpty =
     "the value is empty, as from a shell variable that is not set; give one, or leave the option out";
 
-// Help in the words of this project, in lines that fit the terminal.
+// Help in the project's own wording, in lines that fit the terminal.
 class HelpFormatter : public CLI::Formatter {
  public:
   std::string make_description(const CLI::App* app) const override {
@@ -60,7 +61,7 @@ class HelpFormatter : public CLI::Formatter {
 
  private:
   static std::string listed(const std::string& before, const std::set<CLI::Option*>& options) {
-    std::set<std::string> names;  // in an order that is always the same
+    std::set<std::string> names;  // sorted, so that the order is always the same
     for (const CLI::Option* option : options) {
       const std::string all = option->get_name(false, true);
       names.insert(all.substr(0, all.find(',')));
@@ -184,7 +185,7 @@ int Program::run(int argc, char** argv, const std::function<int()>& work) {
   return outputOr(status);
 }
 
-// CLI11 would take the word after "--option=" for its value.
+// Refuses an option without a value after "--option=", because CLI11 would take the next word as its value.
 void Program::refuseNoValue(int argc, char** argv) const {
   for (int i = 1; i < argc && std::string(argv[i]) != "--"; ++i) {
     const std::string word = argv[i], name = word.substr(0, word.size() - 1);
@@ -193,7 +194,7 @@ void Program::refuseNoValue(int argc, char** argv) const {
   }
 }
 
-// The status, or 2 where standard output did not take all of it.
+// The status, or 2 if standard output did not accept everything.
 int Program::outputOr(int status) const {
   errno = 0;
   if (std::cout.flush() && std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return status;

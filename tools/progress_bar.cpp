@@ -17,11 +17,11 @@ ProgressBar::ProgressBar(std::size_t steps, bool wanted)
 void ProgressBar::show(std::size_t done, const std::string& what) {
   if (!active_) return;
   const std::size_t columns = columnsOf(STDERR_FILENO);
-  const std::size_t cells = std::min<std::size_t>(24, columns * 3 / 10);  // the name needs room, too
+  const std::size_t cells = std::min<std::size_t>(24, columns * 3 / 10);  // the name needs room too
   const std::size_t filled = cells * std::min(done, steps_) / steps_;
   std::string line = "[" + std::string(filled, '#') + std::string(cells - filled, '.') + "] " +
                      std::to_string(done) + "/" + std::to_string(steps_) + " " + what;
-  line = detail::fittedInto(columns - 1, line);  // one that wraps could not be taken away again
+  line = detail::fittedInto(columns - 1, line);  // a wrapped line could not be erased
   std::fprintf(stderr, "\r\033[K%s", line.c_str());
   std::fflush(stderr);
   shown_ = true;

@@ -1,4 +1,4 @@
-// A progress bar on the terminal; silent where standard error is none, or one without escape codes.
+// A progress bar on the terminal; silent if standard error is no terminal, or one without escape codes.
 #pragma once
 
 #include <cstddef>
@@ -8,16 +8,16 @@ namespace fcl_stpbv::tools {
 
 class ProgressBar {
  public:
-  /// Shows nothing for a single step, when not wanted, or when standard error is no terminal that can
-  /// take a line back.
+  /// Shows nothing for a single step, if it is not wanted, or if standard error is not a terminal that can
+  /// rewrite a line.
   ProgressBar(std::size_t steps, bool wanted);
   ~ProgressBar() { clear(); }
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
 
-  /// Shows that `done` steps are behind and what is being worked on.
+  /// Shows that `done` steps are done, and what is being processed.
   void show(std::size_t done, const std::string& what);
-  /// Takes the bar away, for other output to have the line.
+  /// Erases the bar, so that other output can use the line.
   void clear();
 
  private:

@@ -10,7 +10,7 @@
 namespace fcl_stpbv::tools {
 namespace {
 
-constexpr double kLeast = 1e-9;  // m, m/s^2: adviseRadii()'s
+constexpr double kLeast = 1e-9;  // m, m/s^2: the limit of adviseRadii()
 
 }  // namespace
 

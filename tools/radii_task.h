@@ -1,4 +1,4 @@
-// What --advise says: a RadiiTask in words.
+// Reads the argument of --advise as a RadiiTask.
 #pragma once
 
 #include <string>
@@ -7,8 +7,8 @@
 
 namespace fcl_stpbv::tools {
 
-/// "KEY=NUMBER,..." with the names of RadiiTask's numbers, and "others=round" or "others=flat"; what is not
-/// said keeps its default. @throws UsageError that names the word and what would work.
+/// "KEY=NUMBER,..." with the names of RadiiTask's numbers, and "others=round" or "others=flat". Values that
+/// are not given keep their defaults. @throws UsageError that names the word and what would work.
 RadiiTask radiiTask(const std::string& text);
 
 }  // namespace fcl_stpbv::tools

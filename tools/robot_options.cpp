@@ -79,14 +79,14 @@ void describeBodies(Program& app, RobotArguments& a) {
       .repeated();
 }
 
-// One of the numbers of --link.
+// Reads one of the numbers of --link.
 double lengthOf(const std::string& option, const std::string& text, double most, bool orZero) {
   const std::string wrong = wrongNumber(text, 0, most, orZero);
   if (!wrong.empty()) throw Error(option + ": " + wrong);
   return std::stod(text);
 }
 
-// "NAME=r,R" or "NAME=r,R,OVER_COVER". A name may hold '='; the last one counts.
+// Reads "NAME=r,R" or "NAME=r,R,OVER_COVER". The name may contain '='; the last one counts.
 void readLink(const std::string& text, GeometryOptions& options) {
   const std::string option = "--link " + text;
   const std::size_t equals = text.rfind('=');
@@ -126,7 +126,8 @@ void readFlat(const std::string& name, report::RobotFiles& files) {
   files.geometry.flatLinks.insert(name);
 }
 
-// What is wrong with the robot is told when it is loaded. A pipe can be read only once.
+// The mesh files of a robot. Errors in the robot are reported when it is loaded. A pipe is not read here,
+// because it can be read only once.
 std::vector<std::string> meshesOf(const std::string& urdf, const std::vector<std::string>& packagePath) {
   std::vector<std::string> files;
   std::error_code ignored;
@@ -144,7 +145,7 @@ std::vector<std::string> meshesOf(const std::string& urdf, const std::vector<std
   return files;
 }
 
-// The file that a warning begins with, "" where it begins with none.
+// The file that a warning begins with, "" if it begins with none.
 std::string fileOf(const std::string& warning) {
   const std::string file = warning.substr(0, warning.find(": "));
   std::error_code ignored;
@@ -183,7 +184,7 @@ void describeSearch(Program& app, SearchArguments& a) {
 }
 
 std::pair<bool, int> partsAsked(const std::string& parts) {
-  constexpr int kMost = 64;  // more make rows without end
+  constexpr int kMost = 64;  // more parts would make too many rows
   if (parts == "none" || parts == "auto") return {parts == "auto", 1};
   const bool digits =
       !parts.empty() && parts.size() < 3 && parts.find_first_not_of("0123456789") == std::string::npos;

@@ -1,5 +1,5 @@
-// What the tools on robots share on their command lines: the robot's files, how its bodies are made, and what
-// is wrong with an output before anything is computed.
+// The command-line options that the tools on robots share: the robot's files, how its bodies are made, and
+// checks of outputs before anything is computed.
 #pragma once
 
 #include <functional>
@@ -23,10 +23,10 @@ struct RobotArguments {
   int jobs = allCores();
 };
 
-/// Adds ROBOT and the options; `arguments` is filled when the command line is parsed.
+/// Adds ROBOT and the options. `arguments` is filled when the command line is parsed.
 void describeRobot(Program& app, RobotArguments& arguments);
 
-/// How the pairs are searched, and which links are split; of `request` the options write only that.
+/// How the pairs are searched, and which links are split. The options write only these members of `request`.
 struct SearchArguments {
   report::ReportRequest request;
   std::string parts = "none";
@@ -34,28 +34,28 @@ struct SearchArguments {
 };
 void describeSearch(Program& app, SearchArguments& arguments);
 
-/// What --parts asks for: auto, and the most parts of every link, 1 for none.
-/// @throws Error where it is none of "none", "auto" and a number.
+/// The meaning of --parts: whether it is "auto", and the largest number of parts of each link, 1 for none.
+/// @throws Error if it is neither "none" nor "auto" nor a number.
 std::pair<bool, int> partsAsked(const std::string& parts);
 
-/// Called with the steps done, all steps and what is being done.
+/// Called with the number of steps done, the number of all steps, and a text.
 using Progress = std::function<void(std::size_t, std::size_t, const std::string&)>;
 
-/// The report that both ask for. @throws Error naming the option and what would work.
+/// The report that both arguments request. @throws Error naming the option and what would work.
 report::ReportRequest requestOf(const RobotArguments& robot, const SearchArguments& search,
                                 const Progress& progress);
 
-/// The files that the arguments ask for. @throws Error naming the option and what would work.
+/// The files that the arguments name. @throws Error naming the option and what would work.
 report::RobotFiles filesOf(const RobotArguments& arguments);
 
-/// Tells of the shapes that were left out, and of the warnings the first `top`. Those of one file in a row
-/// stand below its name.
+/// Prints the shapes that were left out, and the first `top` warnings. Successive warnings about the same
+/// file are printed below its name.
 void tellAll(const std::string& program, const std::vector<std::string>& skipped,
              const std::vector<std::string>& warnings,
              std::size_t top = std::numeric_limits<std::size_t>::max());
 
-/// @throws Error where nothing can be written to `path`, the argument of -o, and UsageError where that would
-/// replace a file that is read: the robot's, a mesh among them, or one of `others`.
+/// @throws Error if nothing can be written to `path`, the argument of -o; UsageError if that would replace a
+/// file that is read: one of the robot's, such as a mesh, or one of `others`.
 void checkOutput(const std::string& path, const report::RobotFiles& robot,
                  const std::vector<std::string>& others);
 

@@ -1,4 +1,4 @@
-// The progress of a run in several stages, a bar for each.
+// The progress of a run with several stages, with one bar for each.
 #pragma once
 
 #include <memory>
@@ -8,8 +8,8 @@
 
 namespace fcl_stpbv::tools {
 
-/// For `std::ref()` as the progress of GeometryOptions and of PairListOptions. A
-/// stage's steps are only known when it begins.
+/// To be used by `std::ref()` as the progress of GeometryOptions and of PairListOptions. The number of a
+/// stage's steps is known only when it begins.
 class Stages {
  public:
   explicit Stages(bool wanted) : wanted_(wanted) {}

@@ -1,4 +1,4 @@
-// What a program may know of the terminal that it writes to.
+// Properties of the terminal that a program writes to.
 #pragma once
 
 #include <sys/ioctl.h>
@@ -10,13 +10,13 @@
 
 namespace fcl_stpbv::tools {
 
-/// Columns of the terminal behind a file descriptor; 80 where there is none, or it does not say.
+/// Columns of the terminal behind a file descriptor; 80 if there is none or the number is unknown.
 inline std::size_t columnsOf(int descriptor) {
   winsize size{};
   return ::ioctl(descriptor, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80;
 }
 
-/// Whether a line that is there can be written anew: a terminal, and one that knows escape codes.
+/// Whether a line can be rewritten: the output is a terminal that supports escape codes.
 inline bool canRewrite(int descriptor) {
   const char* const kind = std::getenv("TERM");
   return ::isatty(descriptor) != 0 && kind != nullptr && *kind != '\0' && kind != std::string("dumb");

@@ -91,7 +91,7 @@ std::string reasonOf(const CollisionReport& report, int status) {
          (report.colliding == 1 ? " collides" : " collide");
 }
 
-// Of an SRDF that is written, as nothing of it is on the screen.
+// The text about an SRDF that is written, because the SRDF itself is not on the screen.
 std::string toldOf(const CollisionReport& report, const Arguments& a, int status) {
   const bool isFile = !a.output.empty() && a.output != "-";
   return (isFile ? a.output + " is written: " : "") + srdfChange(report, a.search.disableDefault) +
@@ -102,7 +102,8 @@ std::string toldOf(const CollisionReport& report, const Arguments& a, int status
 int run(Arguments& a) {
   const ReportRequest& asked = a.search.request;
   RobotFiles read = a.robot.files;
-  if (a.format == "srdf") read.srdf.clear();  // may be updated: all but its pairs stays as it is
+  // It may be the file that is updated: everything but its pairs stays.
+  if (a.format == "srdf") read.srdf.clear();
   std::vector<std::string> others{asked.pose, asked.neutral, asked.trajectory};
   std::error_code ignored;
   for (const auto& entry : std::filesystem::directory_iterator(asked.polyhedra, ignored))
@@ -118,7 +119,7 @@ int run(Arguments& a) {
   stages.clear();
   if (!a.quiet) tellAll(kProgram, report.skipped, report.warnings, a.top);
   const std::string text = written(report, a);
-  requireNoInput("-o", a.output, report.meshFiles);  // of a robot from a pipe, too
+  requireNoInput("-o", a.output, report.meshFiles);  // also for the meshes of a robot from a pipe
   writeOutput(a.output, text);
   const int status = statusOf(report);
   if (a.format == "srdf" && !a.quiet) tell(kProgram, toldOf(report, a, status));

@@ -29,8 +29,8 @@ struct Motion {
   std::vector<Isometry3d> a, b;
 };
 
-/// The paper's motion (V.B): both bodies turn about three axes, the distance
-/// of their centres goes to and fro.
+/// The paper's motion (V.B): both bodies turn about three axes, and the distance of their centres goes to and
+/// fro.
 Motion paperMotion(double degrees, double step, int queries, double nearest) {
   const double angle = degrees * std::acos(-1.0) / 180;
   const auto turn = [&](double f) {
@@ -55,8 +55,8 @@ Motion paperMotion(double degrees, double step, int queries, double nearest) {
 
 using Query = std::function<double(const Isometry3d&, const Isometry3d&)>;
 
-/// Nanoseconds a query of each way to ask, the best of nine passes over the motion. The ways take turns, so
-/// that what slows the machine for a while slows all of them.
+/// Nanoseconds per query of each way: the best of nine passes over the motion. The ways take turns, so that a
+/// temporary slowdown of the machine affects all of them.
 std::vector<double> nanoseconds(const Motion& motion, const std::vector<Query>& ways) {
   std::vector<double> best(ways.size(), 1e300);
   double sum = 0;  // keeps the compiler from dropping queries
@@ -71,7 +71,7 @@ std::vector<double> nanoseconds(const Motion& motion, const std::vector<Query>& 
   return best;
 }
 
-/// Shares (%) of the mapped queries, and of all those without features.
+/// Shares (%) of the mapped queries, and the share of all queries without features.
 Json shares(const char* shape, const char* motion, const MappingCounts& counts) {
   const auto percent = [](auto part, auto whole) {
     return significant(100 * static_cast<double>(part) / static_cast<double>(whole), 6);
@@ -85,7 +85,7 @@ Json shares(const char* shape, const char* motion, const MappingCounts& counts) 
           {"none", percent(counts.unmapped, counts.total())}};
 }
 
-/// Mapping over random poses with the centres `near` to `far` enclosing radii apart.
+/// Mapping over random poses, with the distance of the centres between `near` and `far` enclosing radii.
 Json sharesApart(const char* name, const Cloud& cloud, int queries, double near, double far) {
   const StpBvGeometry g(StpBv::build(cloud, {0.01, 10.0}));
   Random random(1);
@@ -99,7 +99,7 @@ Json sharesApart(const char* name, const Cloud& cloud, int queries, double near,
   return shares(name, "apart", counts);
 }
 
-/// A motion's shares and times.
+/// Shares and times of a motion.
 Json figures(const char* name, const Cloud& cloud, int queries, bool large) {
   const StpBvGeometry g(StpBv::build(cloud, {0.01, 10.0}));
   const double nearest = 1.9 * g.volume().enclosingRadius();

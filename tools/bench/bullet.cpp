@@ -1,4 +1,4 @@
-// Bullet's GJK. Bullet is optional: without it this file says so.
+// Bullet's GJK. Bullet is optional; without it, this file reports that it is missing.
 #include "fcl_stpbv/convex/hull_graph.h"
 #include "tools/bench/method.h"
 
@@ -29,7 +29,7 @@ btTransform toBullet(const Isometry3d& pose) {
   return btTransform(rotation, toBullet(Vector3d(pose.translation())));
 }
 
-/// Without margins: the polyhedra themselves, as FCL sees them.
+/// Without margins: the same polyhedra that FCL gets.
 void fill(btConvexHullShape& shape, const detail::HullGraph& hull) {
   for (int v = 0; v < hull.vertexCount(); ++v) shape.addPoint(toBullet(hull.point(v) + hull.centre()), false);
   shape.recalcLocalAabb();

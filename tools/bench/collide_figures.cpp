@@ -1,5 +1,5 @@
-// Nanoseconds of fcl_stpbv::collide beside fcl::collide of the same hulls, the ways taking turns; for the
-// table and the chart of docs/fcl.md.
+// Nanoseconds of fcl_stpbv::collide and of fcl::collide on the same hulls. The two take turns. For the table
+// and the chart of docs/fcl.md.
 #include <fcl/narrowphase/collision.h>
 
 #include <cmath>
@@ -19,8 +19,9 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-/// The share of FCL's contacts (%) that are deeper than the shortest way out by more than 1 %. That of the
-/// cores is taken, which hold the hulls. NaN where the two never both find one, as among few queries.
+/// The share of FCL's contacts (%) that are deeper than the shortest way out by more than 1 %. The shortest
+/// way out is that of the cores, which contain the hulls. NaN if there is no query in which both find a
+/// contact, as among few queries.
 double tooDeep(const StpBvGeometry& g, const benchmark::Poses& poses) {
   const fcl::CollisionRequestd request(1, true);
   std::size_t contacts = 0, deep = 0;
@@ -36,7 +37,8 @@ double tooDeep(const StpBvGeometry& g, const benchmark::Poses& poses) {
   return benchmark::significant(100.0 * static_cast<double>(deep) / static_cast<double>(contacts), 3);
 }
 
-/// Two equal bodies under the paper's small motions, their centres `nearest` and up to 0.42 m more apart (m).
+/// Two equal bodies under the paper's small motions, with their centres between `nearest` and 0.42 m more
+/// apart (m).
 Json figures(const char* name, const Cloud& cloud, int queries, double nearest, bool contact) {
   const StpBvGeometry g(StpBv::build(cloud, {0.01, 10.0}));
   benchmark::Poses poses;

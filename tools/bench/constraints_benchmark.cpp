@@ -1,5 +1,5 @@
-// Time of d(q) and J(q) of all self pairs of a robot, beside FCL: median and 99th percentile over random
-// walks. The table of docs/robot.md.
+// Time of d(q) and J(q) of all self pairs of a robot, and of FCL's distances: median and 99th percentile over
+// random walks. For the table of docs/robot.md.
 #include <fcl/narrowphase/distance.h>
 
 #include <algorithm>
@@ -25,7 +25,8 @@ struct Way {
   Evaluate evaluate;
 };
 
-// Each configuration is a step of the joints' ranges away from the last one; times in us.
+// Times (us) of a walk. Each configuration differs from the last one by a step, a share of the joints'
+// ranges.
 std::vector<double> times(const Kinematics& kinematics, const Way& way, int count) {
   const double step = way.steps[0] == 's' ? 1e-3 : 0.5;
   test::Random random(1);
@@ -45,7 +46,7 @@ std::vector<double> times(const Kinematics& kinematics, const Way& way, int coun
   return result;
 }
 
-// Distances alone of the polyhedra, as FCL's own users ask for them.
+// FCL's distances of the polyhedra, as FCL's users compute them.
 class PlainFcl {
  public:
   PlainFcl(const Kinematics& kinematics, const RobotGeometry& geometry, const std::vector<CheckedPair>& pairs)
@@ -115,7 +116,8 @@ benchmark::Measurement measure(const Arguments& arguments) {
       {"robot", model->name}, {"pairs", all.rows()}, {"configurations", arguments.configurations}};
   for (const Way& way : ways)
     result.rows.push_back({{"what", way.what}, {"steps", way.steps}, {"us_p50", {}}, {"us_p99", {}}});
-  for (int turn = 0; turn < arguments.turns; ++turn)  // in turns: what slows the machine slows all of them
+  // The ways take turns, so that a slowdown of the machine affects all of them.
+  for (int turn = 0; turn < arguments.turns; ++turn)
     for (std::size_t k = 0; k < ways.size(); ++k) {
       const std::vector<double> us = times(*kinematics, ways[k], arguments.configurations);
       result.rows[k]["us_p50"].push_back(significant(us[us.size() / 2], 3));

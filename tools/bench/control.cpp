@@ -1,4 +1,4 @@
-// Where continuity pays in a controller: the figures of docs/control.md.
+// Measures where continuity helps a controller: the figures of docs/control.md.
 //   control_bench --runs 20 -o docs/measured
 #include <algorithm>
 #include <cstdio>
@@ -21,7 +21,8 @@ std::vector<Method> methods(bool all, const std::string& scenario) {
   const std::vector<double> Rs = all ? std::vector<double>{1, 3, 10} : std::vector<double>{1, 10};
   for (double r : rs) list.push_back({Model::hull, r, 0, "hull + r, r " + shown(1e3 * r) + " mm"});
   if (scenario != "arms") list.push_back({Model::manifold, 0.01, 0, "manifold, r 10 mm"});
-  const bool flat = scenario != "arms" && scenario != "boxes";  // whether a body stands still
+  // Whether one of the bodies is a static obstacle.
+  const bool flat = scenario != "arms" && scenario != "boxes";
   for (double r : rs)
     for (double R : Rs) {
       const std::string radii = "r " + shown(1e3 * r) + " mm, R " + shown(R) + " m";

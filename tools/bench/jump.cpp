@@ -1,5 +1,5 @@
-// The jump test: a box rocks past parallel faces over a plate in n steps; how much does the gradient change
-// between neighbours? A continuous gradient's change goes down as 1/n, a jump stays.
+// The jump test: a box rocks past parallel faces over a plate in n steps. How much does the gradient change
+// between neighbouring steps? The change of a continuous gradient falls as 1/n, a jump stays.
 #include <algorithm>
 #include <cmath>
 
@@ -15,7 +15,8 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// Rocks from -2 to 2 degrees, turned and tipped a little so that one corner at a time is nearest.
+/// A pose of the rocking motion from -2 to 2 degrees, turned and tipped a little so that only one corner at a
+/// time is nearest.
 Isometry3d rocked(double t) {
   const double degree = std::acos(-1.0) / 180;
   const Matrix3d r =

@@ -22,7 +22,7 @@ std::shared_ptr<StpBvGeometry> boxGeometry(const Vector3d& side) {
 }
 
 int sweep(int steps) {
-  const double range = 2 * 3.14159265358979323846 / 180;  // rad, to either side of parallel
+  const double range = 2 * 3.14159265358979323846 / 180;  // rad, on either side of the parallel position
   const auto plate = boxGeometry({0.3, 0.3, 0.1}), box = boxGeometry({0.2, 0.2, 0.2});
   fcl::DistanceRequestd request(true);
   request.distance_tolerance = 1e-10;
@@ -34,7 +34,7 @@ int sweep(int steps) {
     above.linear() = Eigen::AngleAxisd(angle, Vector3d::UnitY()).toRotationMatrix();
     fcl::DistanceResultd result;
     const double plain = fcl::distance(plate.get(), below, box.get(), above, request, result);
-    // d(distance)/d(angle) = n . (y x (x - o)): what a user of FCL makes of its witness points.
+    // d(distance)/d(angle) = n . (y x (x - o)), as a user of FCL computes it from the witness points.
     const Vector3d normal = (result.nearest_points[1] - result.nearest_points[0]).normalized();
     const double gradient =
         normal.dot(Vector3d::UnitY().cross(result.nearest_points[1] - above.translation()));

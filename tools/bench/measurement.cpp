@@ -1,5 +1,5 @@
-// Files of measurements: one JSON object, one row of it a line, so that a
-// change of a figure is a line of a diff.
+// Files of measurements: one JSON object with one row per line, so that a changed figure is one line of a
+// diff.
 #include "tools/bench/measurement.h"
 
 #include <unistd.h>

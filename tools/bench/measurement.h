@@ -1,5 +1,5 @@
-// What a benchmark measured, as a JSON file. `tools/bench/draw` makes the charts and tables of the docs from
-// these files, so measuring and drawing are apart.
+// The results of a benchmark, as a JSON file. `tools/bench/draw` makes the charts and tables of the docs from
+// these files, so measuring and drawing are separate.
 #pragma once
 
 #include <cstddef>
@@ -12,39 +12,41 @@
 namespace fcl_stpbv::benchmark {
 
 struct Measurement {
-  std::string name;                                                 ///< of the file, without extension
-  nlohmann::ordered_json about = nlohmann::ordered_json::object();  ///< what was asked, from which seed
-  std::vector<nlohmann::ordered_json> rows;                         ///< objects with the same keys
-  double spread = 0;  ///< widest disagreement of repeated blocks, relative; 0 where nothing was timed
+  std::string name;  ///< name of the file, without extension
+  /// The benchmark's parameters, such as its seed.
+  nlohmann::ordered_json about = nlohmann::ordered_json::object();
+  std::vector<nlohmann::ordered_json> rows;  ///< objects with the same keys
+  double spread = 0;  ///< largest relative difference of repeated blocks; 0 if nothing was timed
 };
 
-/// The program's name and its arguments, but for the folder of the output.
+/// The program's name and its arguments, without the folder of the output.
 std::string commandLine(int argc, char** argv);
 
-/// Time this thread has run (ns): without the time that others had the core.
+/// Processor time of this thread (ns), without the time in which other processes had the core.
 double threadTime();
 
-/// Medians of `passes` passes over `count` queries of each way, the ways taking turns, so that what slows the
-/// machine for a while slows all of them (ns a query, the thread's own time).
+/// Medians of `passes` passes over `count` queries of each way (ns per query, the thread's processor time).
+/// The ways take turns, so that a temporary slowdown of the machine affects all of them.
 std::vector<double> mediansInTurns(int passes, std::size_t count,
                                    const std::vector<std::function<void(std::size_t)>>& ways);
 
-/// The value below which a share `p` of the values lies; reorders them. NaN for none.
+/// The value below which a share `p` of the values lies. Reorders the values. NaN if there are none.
 double percentile(std::vector<double>& values, double p);
 double median(std::vector<double> values);
 
-/// Rounds to so many significant digits: what a file shows of a measured value.
+/// Rounds a measured value to this number of significant digits for a file.
 double significant(double value, int digits);
 
-/// Few digits, as in "10" or "0.5".
+/// The value with few digits, such as "10" or "0.5".
 std::string shown(double value);
 
-/// Before the work: whether write() can write a file of this name into the folder, which is made if missing;
-/// "" for none. @throws Error where it cannot, and where the name is none or names a folder too.
+/// Call it before the work. Checks that write() can write a file of this name into the folder, which is
+/// created if it is missing; "" for no folder. @throws Error if it cannot, or if the name is empty or
+/// contains a folder.
 void requirePlace(const std::filesystem::path& folder, const std::string& name);
 
-/// Writes `folder`/NAME.json whole or not at all, with the command, compiler, flags and processor.
-/// @throws Error where the file cannot be written.
+/// Writes `folder`/NAME.json completely or not at all, with the command, compiler, flags and processor.
+/// @throws Error if the file cannot be written.
 void write(const Measurement& measurement, const std::string& command, const std::filesystem::path& folder);
 
 }  // namespace fcl_stpbv::benchmark

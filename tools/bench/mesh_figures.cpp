@@ -1,5 +1,5 @@
-// Microseconds of fcl_stpbv's queries of a body against a mesh of many triangles or an octree beside FCL's
-// own, the two taking turns; for the table of docs/fcl.md.
+// Microseconds of queries of a body against a mesh of many triangles or an octree, by fcl_stpbv and by FCL.
+// The two take turns. For the table of docs/fcl.md.
 #include <fcl/config.h>
 #include <fcl/geometry/bvh/BVH_model.h>
 #if FCL_HAVE_OCTOMAP
@@ -59,7 +59,7 @@ Geometry bumpySurface(int n) {
   return mesh;
 }
 
-/// Turned at random, their origins `away` apart (m).
+/// Poses turned at random, with the origins `away` apart (m).
 benchmark::Poses posesAt(double away, int count) {
   Random random(7);
   benchmark::Poses poses;
@@ -71,8 +71,8 @@ benchmark::Poses posesAt(double away, int count) {
 }
 
 #if FCL_HAVE_OCTOMAP
-/// A map of a room 2.4 m wide and 1 m high, of cells of 5 cm: its floor, a wall, 300 cells here and there.
-/// The others are known to be free.
+/// A map of a room 2.4 m wide and 1 m high, with cells of 5 cm: its floor, a wall, and 300 cells in random
+/// places. The other cells are known to be free.
 Geometry roomMap() {
   constexpr int kWide = 48, kHigh = 20;
   auto cells = std::make_shared<octomap::OcTree>(0.05);
@@ -85,14 +85,14 @@ Geometry roomMap() {
       for (int k = -1; k < kHigh; ++k) mark(i, j, k, k < 0 || j == 0);
   Random random(4);
   for (int i = 0; i < 300; ++i)
-    for (int seen = 0; seen < 4; ++seen)  // over what is known of it
+    for (int seen = 0; seen < 4; ++seen)  // often enough to override the known free space
       mark(random.below(kWide), random.below(kWide), random.below(kHigh), true);
   cells->updateInnerOccupancy();
   cells->prune();
   return std::make_shared<fcl::OcTreed>(cells);
 }
 
-/// Anywhere over the map's floor, from a height of `low` to 0.3 m more, turned at random.
+/// Poses anywhere over the map's floor, at heights from `low` to 0.3 m more, turned at random.
 benchmark::Poses posesOver(double low, int count) {
   Random random(7);
   benchmark::Poses poses;
@@ -105,7 +105,7 @@ benchmark::Poses posesOver(double low, int count) {
 }
 #endif
 
-/// `distance`, else a contact or a yes or no. FCL sees an STP-BV's hull.
+/// `asked`: "distance", a contact, or yes or no. FCL gets the hull of an STP-BV.
 Json figures(const Geometry& body, const Geometry& surface, const benchmark::Poses& poses,
              const char* asked) {
   const bool isDistance = std::string(asked) == "distance";

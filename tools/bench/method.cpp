@@ -1,6 +1,6 @@
-// The methods that are timed. Polyhedra: fcl::distance with either of FCL's solvers, and FCL's GJK with the
-// duality gap as stop. STP-BVs: started from FCL's witness, or from the last answer. Bullet's is in
-// bullet.cpp.
+// The methods that are timed. Polyhedra: fcl::distance with each of FCL's solvers, and FCL's GJK with the
+// duality gap as its stopping criterion. STP-BVs: started from FCL's witness, or from the last answer.
+// Bullet's method is in bullet.cpp.
 #include "tools/bench/method.h"
 
 #include <fcl/narrowphase/distance.h>
@@ -32,7 +32,7 @@ class Fcl : public Method {
     try {
       answer.distance = fcl::distance(bodies_.a.get(), a, bodies_.b.get(), b, request_, result);
     } catch (const std::exception&) {
-      return;  // FCL throws where its own checks fail
+      return;  // FCL throws if one of its own checks fails
     }
     answer.outcome = answer.distance > 0 ? Outcome::apart : Outcome::overlap;
     answer.point = {result.nearest_points[0], result.nearest_points[1]};

@@ -1,4 +1,4 @@
-// The ways to a distance that are compared, behind one interface.
+// The methods of computing a distance that are compared, behind one interface.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -14,19 +14,19 @@
 
 namespace fcl_stpbv::benchmark {
 
-/// Two bodies, as FCL's polyhedra and as STP-BVs in one.
+/// Two bodies, each both as FCL's polyhedron and as an STP-BV.
 struct Bodies {
   std::shared_ptr<const StpBvGeometry> a, b;
 };
 
-/// Two separate copies of one body, so that no method gains from both being the same memory.
+/// Two separate copies of one body, so that no method gains from shared memory.
 Bodies twice(const test::Cloud& cloud, const StpBvOptions& options);
 Bodies geodesicSpheres(int subdivisions);  ///< radius 0.20 m, r = 1 cm, R = 10 m
 
 enum class Outcome { apart, overlap, failed };
 
-/// What a method says. `normal` only of methods that have one of their own (else zero): for the others it is
-/// the direction between the points, which users compute themselves.
+/// The answer of a method. `normal` is set only by methods that have one of their own (otherwise zero). For
+/// other methods the normal is the direction between the points, which users compute themselves.
 struct Answer {
   Outcome outcome = Outcome::failed;
   double distance = 0;
@@ -38,17 +38,17 @@ struct Answer {
   Eigen::Vector3d direction() const { return normal.isZero() ? (point[1] - point[0]).normalized() : normal; }
 };
 
-/// One way to ask, with its setting. Holds references to the bodies.
+/// One method with its setting. Holds references to the bodies.
 class Method {
  public:
   Method(std::string itsName, std::string itsSetting, bool isSmooth)
       : name(std::move(itsName)), setting(std::move(itsSetting)), smooth(isSmooth) {}
   virtual ~Method() = default;
-  /// Overwrites `answer`, in its place: a copy of it would be timed along with the query.
+  /// Overwrites `answer` in place, because a copy of it would be timed as a part of the query.
   virtual void query(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b, Answer& answer) = 0;
 
   const std::string name, setting;
-  const bool smooth;  ///< asks about the STP-BVs; else about the polyhedra
+  const bool smooth;  ///< whether it queries the STP-BVs; otherwise the polyhedra
 };
 
 using MethodPtr = std::unique_ptr<Method>;
@@ -56,12 +56,13 @@ constexpr double kFclTolerance = 1e-6;  // FCL's default
 
 MethodPtr fclLibccd(const Bodies& bodies, double tolerance = kFclTolerance);
 MethodPtr fclIndep(const Bodies& bodies, double tolerance = kFclTolerance);
-MethodPtr fclGapStop(const Bodies& bodies, bool warm);  ///< polyhedra, FCL's GJK with the duality gap as stop
-MethodPtr bulletGjk(const Bodies& bodies);        ///< null where Bullet was not found when this was built
+/// Polyhedra, FCL's GJK with the duality gap as stopping criterion.
+MethodPtr fclGapStop(const Bodies& bodies, bool warm);
+MethodPtr bulletGjk(const Bodies& bodies);        ///< null if Bullet was not found at build time
 MethodPtr stpBvThroughFcl(const Bodies& bodies);  ///< each query starts from FCL's witness
 MethodPtr stpBvWarm(const Bodies& bodies);        ///< each query starts from the last answer
 
-/// One of each, with FCL's default tolerance; without Bullet where it was not found.
+/// One of each method, with FCL's default tolerance; without Bullet if it was not found.
 std::vector<MethodPtr> peers(const Bodies& bodies);
 
 }  // namespace fcl_stpbv::benchmark

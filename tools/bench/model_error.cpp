@@ -1,5 +1,5 @@
-// Model error: how far the volume exceeds its hull, against what a query takes and how steep the gradient is,
-// over r, R and the over-cover that `reduce` may use.
+// Model error: how far the volume exceeds its hull, compared with the time of a query and the steepness of
+// the gradient, over r, R and the over-cover that `reduce` may use.
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
@@ -19,12 +19,12 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// A body with flat faces and a fine rim: where r, R and fewer vertices all matter.
+/// A body with flat faces and a finely divided rim, for which r, R and fewer vertices all matter.
 test::Cloud bodyCloud() { return test::cylinder(0.1, 0.4, 64); }
 
-constexpr double kNearestCentres = 0.5;  // m: shortest way between centres, the same for all volumes
+constexpr double kNearestCentres = 0.5;  // m: least distance of the centres, the same for all volumes
 
-/// How far the volume's support exceeds the cloud's.
+/// How far the volume's support function exceeds the cloud's.
 struct Cover {
   double least, most;
 };
@@ -43,11 +43,11 @@ Cover coverOf(const StpBv& volume, const test::Cloud& cloud, std::uint64_t seed)
 
 /// Lipschitz constants of the gradient: the largest eigenvalues of the distance's second derivative.
 struct Steepness {
-  double shift = 0;  ///< over both bodies' translations (1/m); at most 2 / (distance + 2 r)
-  double turn = 0;   ///< over both bodies' rotations about their middles (m/rad^2)
+  double shift = 0;  ///< for both bodies' translations (1/m); at most 2 / (distance + 2 r)
+  double turn = 0;   ///< for both bodies' rotations about their middles (m/rad^2)
 };
 
-/// Of the rows and columns from `first` on, three a body.
+/// The largest eigenvalue of the block of rows and columns from `first` on, three for each body.
 double largestEigenvalue(const DistanceHessian& h, int first) {
   Eigen::Matrix<double, 6, 6> block;
   for (int i = 0; i < 6; ++i)
@@ -56,8 +56,8 @@ double largestEigenvalue(const DistanceHessian& h, int first) {
   return solver.eigenvalues().cwiseAbs().maxCoeff();
 }
 
-/// Over random poses 1 to 50 mm apart; half of them with ends or sides nearly
-/// parallel, where the gradient turns fastest.
+/// The steepness over random poses 1 to 50 mm apart. In half of them, ends or sides are nearly parallel,
+/// where the gradient turns fastest.
 Steepness steepnessOf(const StpBv& volume, std::uint64_t seed) {
   test::Random random(seed);
   Steepness steepest;

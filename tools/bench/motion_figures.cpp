@@ -1,5 +1,5 @@
 // The figures of docs/motion.md: time of an edge between two free postures, and contacts that dense samples
-// see but the proof does not. Usage: motion_figures [EDGES [SAMPLES [SEED [ROBOT.urdf [ROBOT.srdf]]]]]
+// find but the proof does not. Usage: motion_figures [EDGES [SAMPLES [SEED [ROBOT.urdf [ROBOT.srdf]]]]]
 #include <chrono>
 #include <cstdio>
 #include <exception>
@@ -47,7 +47,7 @@ VectorXd freePosture(const Robot& robot, MotionCheck& check, test::Random& rando
   }
 }
 
-/// Each joint by 5 % of its range, up or down, within the limits.
+/// Moves each joint by 5 % of its range, up or down, within the limits.
 VectorXd moved(const Robot& robot, const VectorXd& q, test::Random& random) {
   const VectorXd &low = robot.kinematics->lower(), &high = robot.kinematics->upper();
   VectorXd next = q;

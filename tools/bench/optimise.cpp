@@ -1,4 +1,4 @@
-// Where continuity pays in an optimiser: the figures of docs/optimise.md.
+// Measures where continuity helps an optimiser: the figures of docs/optimise.md.
 //   optimise_bench --runs 20 -o docs/measured
 #include <malloc.h>
 
@@ -17,13 +17,14 @@ using namespace fcl_stpbv::benchmark;
 
 namespace {
 
-constexpr double kViolation = 1e-7;  // of a row that still counts as kept (m); IPOPT's own is 1e-8, scaled
+// Largest violation of a row that still counts as kept (m); IPOPT's own is 1e-8, scaled.
+constexpr double kViolation = 1e-7;
 
 /// A way to solve a task.
 struct Way {
   std::string solver;
   Solver kind;
-  bool continued;  ///< begins with a small R
+  bool continued;  ///< whether it begins with a small R
 };
 
 struct Result {
@@ -33,7 +34,8 @@ struct Result {
   double ms = 0;
 };
 
-/// Solves the task on one model, from x to x, and adds what that took.
+/// Solves the task on one model. `x` is the start and receives the solution; the cost of the solve is added
+/// to `result`.
 void solveOn(const Task& task, const Method& method, Solver solver, bool warm, Eigen::VectorXd& x,
              Result& result) {
   Nlp nlp(task, method);
@@ -48,8 +50,8 @@ void solveOn(const Task& task, const Method& method, Solver solver, bool warm, E
   result.cost = task.cost(x);
 }
 
-/// From a small R, twice the radius of the bodies, in steps of about 3, each from the last solution; a step
-/// that fails is halved.
+/// Starts with a small R, twice the radius of the bodies, and increases it in steps of about 3. Each step
+/// starts from the last solution. A step that fails is halved.
 Result continueInR(const Task& task, const Method& goal, Solver solver) {
   constexpr double kFirst = 0.3, kStep = 10.0 / 3, kSmallest = 1.1;
   Result result;
@@ -79,7 +81,7 @@ Result run(const Task& task, const Way& way, const Method& method) {
   return result;
 }
 
-/// The models of a task's bodies; obstacles stay flat where there are any (docs/control.md).
+/// The models of a task's bodies. Obstacles, if there are any, stay flat (docs/control.md).
 std::vector<Method> models(const std::string& task, double r) {
   const Model smooth = task == "pack" ? Model::smooth : Model::half;
   const std::string mm = ", r " + shown(1e3 * r) + " mm";
@@ -88,7 +90,8 @@ std::vector<Method> models(const std::string& task, double r) {
   return list;
 }
 
-/// What ends at IPOPT's limit of iterations takes most of the time: that is shown on one or two models only.
+/// Solves that end at IPOPT's limit of iterations take most of the time, so they are shown on one or two
+/// models only.
 std::vector<Way> ways(const Method& method) {
   std::vector<Way> list{{"IPOPT, exact Hessian", Solver::exact, false}};
   if (method.R > 1) list.push_back({"IPOPT, exact Hessian, continued", Solver::exact, true});
@@ -99,14 +102,14 @@ std::vector<Way> ways(const Method& method) {
   return list;
 }
 
-/// Within the rows and as good as the best that any solver found for this seed and model. Packings have many
-/// minima: there the solver's word for one of them counts.
+/// Whether a solution keeps the rows and is as good as the best that any solver found for this seed and
+/// model. Packings have many minima, so for them it is enough that the solver reports one of them.
 bool solved(const Result& r, const std::string& task, double best) {
   return r.converged && r.violation <= kViolation &&
          (task == "pack" || r.cost <= best + 1e-4 * std::max(std::abs(best), 1e-3));
 }
 
-/// One row of the table: what one way did with all seeds.
+/// Adds one row of the table: the results of one way for all seeds.
 void add(const std::string& task, const Method& method, const Way& way, const std::vector<Result>& results,
          const std::vector<double>& best, Measurement& measurement) {
   int converged = 0, good = 0;
@@ -137,7 +140,7 @@ void add(const std::string& task, const Method& method, const Way& way, const st
                               {"worst_violation", significant(worst, 2)}});
 }
 
-/// Every way on one model.
+/// Measures every way on one model.
 void measure(const std::vector<Task>& list, const Method& method, Measurement& measurement) {
   const std::vector<Way> all = ways(method);
   std::vector<std::vector<Result>> results(all.size());
@@ -152,8 +155,8 @@ void measure(const std::vector<Task>& list, const Method& method, Measurement& m
     add(list[0].name, method, all[w], results[w], best, measurement);
 }
 
-/// MUMPS takes memory for every factorisation and frees it afterwards. Unless told otherwise, glibc hands it
-/// back to the system each time, which makes up a third of the time of small programs.
+/// MUMPS allocates memory for every factorisation and frees it afterwards. By default, glibc returns it to
+/// the system each time, which makes up a third of the time of small programs.
 void keepFreedMemory() {
   mallopt(M_MMAP_THRESHOLD, 32 << 20);
   mallopt(M_TRIM_THRESHOLD, 1 << 30);

@@ -1,6 +1,6 @@
-// parts_benchmark: convex parts beside the hulls of HACD's partition (docs/parts.md).
-// 1. How far from its mesh each is at most, and the processor's time to find it.
-// 2. For a robot: what a controller's tick costs, with the rows of all pairs of all links' parts.
+// parts_benchmark: convex parts compared with the hulls of HACD's partition (docs/parts.md).
+// 1. Their largest distance from the mesh, and the processor time to compute them.
+// 2. For a robot: the time of a controller's tick, with the rows of all pairs of all links' parts.
 #include <algorithm>
 #include <cstdio>
 #include <ctime>
@@ -29,7 +29,7 @@ using namespace fcl_stpbv::detail;
 using benchmark::significant;
 using Clouds = std::vector<std::vector<Eigen::Vector3d>>;
 
-constexpr double kConcave = 0.005;  // m that the hull of a robot's link exceeds its mesh by, to be split
+constexpr double kConcave = 0.005;  // m: a link whose hull exceeds its mesh by more than this is split
 
 double processorTime() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
@@ -56,7 +56,7 @@ Clouds oursOf(const TriangleMesh& mesh, int count, double effort) {
   return clouds;
 }
 
-// The parts of one mesh by one method, and a row that says how good they are.
+// The parts of one mesh by one method. Adds a row with their quality.
 Clouds split(const std::string& name, const TriangleMesh& mesh, const std::string& method, int count,
              double effort, std::vector<nlohmann::ordered_json>& rows) {
   const MeshSolid solid(mesh);
@@ -80,7 +80,7 @@ std::vector<std::string> methodsOf(const Arguments& a) {
   return a.hacd ? std::vector<std::string>{"ours", "HACD"} : std::vector<std::string>{"ours"};
 }
 
-// A robot whose links are the parts given, the others whole; and the rows of all pairs of links.
+// A robot in which given links consist of parts and the others are whole, and the rows of all pairs of links.
 class Tick {
  public:
   explicit Tick(const Arguments& a) : robot_(std::make_shared<const RobotModel>(loadUrdf(a.robot))) {

@@ -1,5 +1,5 @@
-// posture_study: does a continuous gradient pay? The same optimiser, tasks and starts with four sources of
-// distances; a table on standard output, every task as JSON (docs/posture.md).
+// posture_study: does a continuous gradient help? The same optimiser, tasks and starts with four sources of
+// distances. Prints a table; writes every task as JSON (docs/posture.md).
 #include <algorithm>
 #include <array>
 #include <cstdio>
@@ -32,7 +32,7 @@ constexpr Method kMethods[] = {{"STP-BV", true, HullDistance::exact, true},
                                {"hulls, rounded, FCL", false, HullDistance::fcl, true},
                                {"hulls, plain FCL", false, HullDistance::fcl, false}};
 constexpr std::size_t kCount = std::size(kMethods);
-constexpr double kInfluence = 0.2;  // m, as find_posture has it
+constexpr double kInfluence = 0.2;  // m, the value of find_posture
 
 struct Result {
   bool solved = false, clear = false;
@@ -72,7 +72,7 @@ class Study {
   Study(int starts, int searchStarts, double tolerance)
       : scene_(loadRobot()), check_(scene_.robot, nullptr, {}), searchStarts_(searchStarts) {
     options_.starts = starts;
-    options_.anywhere = 0;  // what starts near the task's are worth is compared
+    options_.anywhere = 0;  // only starts near the task's own are compared
     options_.solver.costTolerance = tolerance;
   }
 
@@ -83,7 +83,8 @@ class Study {
     Row row{seed, random.family, false, {}};
     for (std::size_t m = 0; m < kCount; ++m) row.results[m] = solve(kMethods[m], random.task, options_);
     row.feasible = row.results[0].good();
-    // An STP-BV holds the rounded hull, which holds the hull: what can be done with the first can with all.
+    // An STP-BV contains the rounded hull, which contains the hull. So a task that has a solution with
+    // STP-BVs has one with all methods.
     PostureOptions search = options_;
     search.starts = searchStarts_;
     if (!row.feasible) row.feasible = solve(kMethods[0], random.task, search).good();
@@ -128,7 +129,7 @@ void printTable(const std::vector<Row>& rows, int starts) {
       first += result.posture.starts == 1;
       const bool all =
           std::all_of(row.results.begin(), row.results.end(), [](const Result& r) { return r.good(); });
-      if (!all) continue;  // medians over the same tasks for all methods
+      if (!all) continue;  // medians are over the same tasks for all methods
       iterations.push_back(result.posture.iterations);
       calls.push_back(static_cast<double>(result.posture.distanceCalls));
       seconds.push_back(result.posture.seconds);

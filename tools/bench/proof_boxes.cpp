@@ -1,5 +1,5 @@
-// proof_boxes: how many boxes of joint values a proof takes that two links never meet, by the joints' levers
-// alone and by planes fixed to a link between them (docs/proofs.md).
+// proof_boxes: number of boxes of joint values that a proof needs to show that two links never meet, with the
+// joints' levers alone and with planes fixed to a link between them (docs/proofs.md).
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -26,7 +26,7 @@ struct Taken {
   double seconds = 0;
 };
 
-// The bound before planes: the distance in the middle less what each joint's lever can change it by.
+// The bound without planes: the distance at the middle minus the largest change by each joint's lever.
 Taken byLevers(const ProofScene& scene, const PairEntry& entry, long most) {
   PairSearch search(scene.kinematics, scene.geometry, entry.link1, entry.link2);
   const std::vector<int>& coordinates = search.coordinates();
@@ -65,7 +65,7 @@ Taken byPlanes(const ProofScene& scene, const PairEntry& entry, long most) {
   return {proof.proven(), proof.collision.has_value(), proof.boxes, since(start)};
 }
 
-// What the random descents take of the whole list, beside the proofs that it starts with.
+// Share of the random descents in the time of the whole list, compared with the proofs at its start.
 void timeList(std::shared_ptr<const Kinematics> kinematics, std::shared_ptr<const RobotGeometry> geometry) {
   for (const int descents : {0, PairListOptions().randomDescents}) {
     PairListOptions search;

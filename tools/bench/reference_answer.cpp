@@ -1,6 +1,8 @@
-// STP-BVs: test/reference/reference.h, with the library's normal for a rough direction. Polyhedra: 1. The
-// library's witness names a feature of each. 2. The nearest points of what these span, by Gram and Schmidt in
-// long double. 3. The gap between the planes across them, over all vertices, proves it.
+// Reference answers. STP-BVs: test/reference/reference.h, with the library's normal as a rough direction.
+// Polyhedra:
+// 1. The library's witness names a feature of each body.
+// 2. The nearest points of the features' affine spans are computed by Gram and Schmidt in long double.
+// 3. The gap between the planes across the distance, over all vertices, proves the result.
 #include "tools/bench/reference_answer.h"
 
 #include <Eigen/Geometry>
@@ -34,7 +36,7 @@ Vector3L spanDifference(const std::vector<Vector3L>& a, const std::vector<Vector
     for (std::size_t i = 1; i < points->size(); ++i)
       axes.push_back(((*points)[i] - points->front()).normalized());
   // Gram and Schmidt, the longest remainder first.
-  constexpr long double kSpan = 1e-12L;  // parallel edges span one direction less
+  constexpr long double kSpan = 1e-12L;  // edges that are parallel span one direction less
   Vector3L rest = b[0] - a[0];
   const auto longer = [](const Vector3L& p, const Vector3L& q) { return p.squaredNorm() < q.squaredNorm(); };
   for (int i = 0; i < 3 && !axes.empty(); ++i) {
@@ -83,13 +85,14 @@ Truth polyhedralTruth(const Bodies& bodies, const Isometry3d& a, const Isometry3
       spanDifference(corners(hullA, a, w.vertices[0]), corners(hullB, b, w.vertices[1]));
   truth.distance = difference.norm();
   truth.normal = difference / truth.distance;
-  // The spans' distance is at most the features', hence an upper bound only together with the planes' gap.
+  // The distance of the spans is at most that of the features. So it is the distance only together with the
+  // planes' gap.
   long double lowest = HUGE_VALL, highest = -HUGE_VALL;
   for (int v = 0; v < hullA.vertexCount(); ++v)
     highest = std::max(highest, truth.normal.dot(vertex(hullA, a, v)));
   for (int v = 0; v < hullB.vertexCount(); ++v)
     lowest = std::min(lowest, truth.normal.dot(vertex(hullB, b, v)));
-  // The gap is a lower bound whatever the normal, the witness an upper one to double's rounding.
+  // The gap is a lower bound for any normal. The witness gives an upper bound, up to rounding of doubles.
   const long double gap = lowest - highest;
   truth.proven = std::abs(gap - truth.distance) < 1e-17L &&
                  std::abs(truth.distance - static_cast<long double>(w.upper)) < 1e-14L;

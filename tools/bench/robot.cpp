@@ -1,5 +1,5 @@
-// A whole robot's verdicts and distances beside FCL's and Bullet's, as a planner or a controller asks for
-// them. The ways take turns on the same random walks; the table of docs/robot.md.
+// Verdicts and distances of whole robots by this library, FCL and Bullet, as a planner or a controller asks
+// for them. The methods take turns on the same random walks. For the table of docs/robot.md.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -27,7 +27,7 @@ struct Arguments {
   bool json = false;
 };
 
-/// One configuration a column: each a step of the joints' ranges away from the one before.
+/// One configuration per column. Each differs from the one before by a step, a share of the joints' ranges.
 MatrixXd walk(const Kinematics& kinematics, double step, int count) {
   test::Random random(1);
   MatrixXd all(kinematics.size(), count);
@@ -42,14 +42,14 @@ MatrixXd walk(const Kinematics& kinematics, double step, int count) {
   return all;
 }
 
-/// One way to answer all configurations of a walk; the first of a question is this library's.
+/// One way to answer all configurations of a walk. The first way of each question is this library's.
 struct Way {
   std::string what, way;
-  std::function<long(const MatrixXd&)> run;  ///< how many it counted: hits
-  bool shared = false;                       ///< in several threads: by the clock on the wall
+  std::function<long(const MatrixXd&)> run;  ///< returns the number of hits
+  bool shared = false;  ///< whether it uses several threads, so that wall-clock time counts
 };
 
-/// `ask` for each configuration.
+/// Calls `ask` for each configuration.
 template <class Ask>
 std::function<long(const MatrixXd&)> each(Ask ask) {
   return [ask](const MatrixXd& all) {
@@ -113,7 +113,7 @@ class Bench {
     return all;
   }
 
-  /// The batches of this library: in one and two threads.
+  /// This library's batches, in one and in two threads.
   std::vector<Way> batches(Sequence sequence) {
     std::vector<Way> all;
     for (const int threads : {1, 2}) {
@@ -154,7 +154,7 @@ class Bench {
         us[k].push_back(1e-3 * ns / static_cast<double>(q.cols()));
       }
     for (std::size_t k = 0; k < all.size(); ++k) {
-      std::size_t own = 0;  // what it is compared with
+      std::size_t own = 0;  // the way that it is compared with
       while (all[own].what != all[k].what) ++own;
       std::vector<double> ratio;
       for (std::size_t turn = 0; turn < us[k].size(); ++turn) ratio.push_back(us[k][turn] / us[own][turn]);

@@ -1,8 +1,9 @@
-// scene_models: what models of a robot cost and show, from coarse volumes to eight convex parts a link, and
-// the one that modelForScene() finds (docs/parts.md).
+// scene_models: cost and verdicts of models of a robot, from coarse volumes to eight convex parts per link,
+// and of the model that modelForScene() finds (docs/parts.md).
 // 1. The scene: all pairs of links, in the neutral and in random configurations.
-// 2. Uniform models, coarse to fine. What the finest shows clear is what a scene asks for.
-// 3. modelForScene() for that, beside them: vertices, rows, time, excess over the meshes, verdicts.
+// 2. Uniform models, coarse to fine. The pairs that the finest model shows to be clear are the scene's needs.
+// 3. modelForScene() for these needs, compared with them: vertices, rows, time, excess over the meshes,
+// verdicts.
 #include <algorithm>
 #include <cstdio>
 #include <exception>
@@ -61,10 +62,10 @@ Scene makeScene(const Arguments& arguments, const std::shared_ptr<const RobotMod
   return scene;
 }
 
-// A model's rows, those of each pair of links together.
+// The rows of a model, ordered by pairs of links.
 struct Rows {
   std::vector<CheckedPair> bodies;
-  std::vector<Eigen::Index> end;  // of each pair's
+  std::vector<Eigen::Index> end;  // end of each pair's rows
 };
 
 Rows rowsOf(const Scene& scene, const RobotGeometry& geometry) {
@@ -93,7 +94,8 @@ std::vector<char> verdicts(const Rows& rows, const std::vector<Eigen::VectorXd>&
   return clear;
 }
 
-// Most that each body exceeds its mesh by (m): a part's hull or the whole one, and the volume's over-cover.
+// How far each body exceeds its mesh at most (m): the hull of a part or of the whole mesh, plus the volume's
+// over-cover.
 std::vector<double> excesses(const RobotGeometry& geometry, LinkParts& parts) {
   std::vector<double> all;
   int whole = 0;
@@ -109,8 +111,8 @@ std::vector<double> excesses(const RobotGeometry& geometry, LinkParts& parts) {
 }
 
 struct Verdicts {
-  std::vector<char> clear;   // of each configuration and pair
-  std::vector<char> others;  // in configurations that no model was made for
+  std::vector<char> clear;   // for each configuration and pair
+  std::vector<char> others;  // the same in configurations for which no model was made
 };
 
 Verdicts judge(const std::string& name, const Scene& scene, const Geometry& geometry, LinkParts& parts,
@@ -149,7 +151,7 @@ Verdicts judge(const std::string& name, const Scene& scene, const Geometry& geom
   return found;
 }
 
-// How many verdicts, and those of how many pairs, differ from the finest model's.
+// Number of verdicts that differ from those of the finest model, and number of pairs with such verdicts.
 void compare(const Verdicts& finest, std::size_t pairs, const Verdicts& found, nlohmann::ordered_json& row) {
   int verdicts = 0, others = 0;
   std::set<std::size_t> differ;

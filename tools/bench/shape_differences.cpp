@@ -1,6 +1,6 @@
-// shape_differences [POSES]: the tables of docs/fcl_accuracy.md. A sphere is both an FCL shape and the
-// STP-BV of one point, so plain FCL and this library answer about the very same bodies; and a cube rocks over
-// each shape, as a polyhedron and as an STP-BV, to see whose gradient jumps.
+// shape_differences [POSES]: the tables of docs/fcl_accuracy.md. A sphere is both an FCL shape and the STP-BV
+// of one point, so plain FCL and this library answer about exactly the same bodies. A cube rocks over each
+// shape, as a polyhedron and as an STP-BV, to show whose gradient jumps.
 #include <fcl/geometry/bvh/BVH_model.h>
 #include <fcl/geometry/shape/box.h>
 #include <fcl/geometry/shape/capsule.h>
@@ -58,9 +58,9 @@ Named shapesAlongX() {
           {"mesh (RSS)", meshOf(*hull)}};
 }
 
-// Largest change of the distance's derivative to the cube's twist, [normal; arm x normal], in one of `steps`
-// steps while a cube rocks by 4 degrees each way, 5 cm over the shape, with the shape's axis or longest side
-// below one of its faces; and at which angle.
+// Rocks a cube by 4 degrees in both directions, 5 cm over the shape, with the shape's axis or longest side
+// below one of its faces. Measures the largest change of the distance's derivative with respect to the cube's
+// twist, [normal; arm x normal], in one of `steps` steps, and the angle where it occurs.
 struct Jump {
   double change = 0, angle = 0;
   int failed = 0;
@@ -97,7 +97,7 @@ void jumps() {
                        shape->getNodeType() == fcl::GEOM_ELLIPSOID;
     Eigen::Isometry3d below = Eigen::Isometry3d::Identity();
     if (round) below.linear() = Eigen::AngleAxisd(M_PI / 2, Eigen::Vector3d::UnitY()).toRotationMatrix();
-    if (shape->getNodeType() == fcl::GEOM_CONE)  // its generator level
+    if (shape->getNodeType() == fcl::GEOM_CONE)  // turn its generator level
       below.linear() = Eigen::AngleAxisd(-std::atan2(0.2, 0.3), Eigen::Vector3d::UnitY()) * below.linear();
     const auto at = [&](double angle) {
       return pose(Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitY()).toRotationMatrix(), {0, 0, 0.35});

@@ -1,5 +1,5 @@
-// Nanoseconds of fcl_stpbv's queries of a body and one of FCL's simple shapes beside FCL's own, the two
-// taking turns; for the table of docs/fcl.md.
+// Nanoseconds of queries of a body and one of FCL's simple shapes, by fcl_stpbv and by FCL. The two take
+// turns. For the table of docs/fcl.md.
 #include <fcl/geometry/shape/box.h>
 #include <fcl/geometry/shape/capsule.h>
 #include <fcl/geometry/shape/cone.h>
@@ -33,8 +33,9 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-/// Under the paper's small motions, centres `nearest` and up to 0.42 m more apart (m). `distance`, else a
-/// contact or a yes or no. FCL sees an STP-BV's hull. Ours: from the last answer, and from none.
+/// Two bodies under the paper's small motions, with their centres between `nearest` and 0.42 m more apart
+/// (m). `asked`: "distance", a contact, or yes or no. FCL gets the hull of an STP-BV. This library starts
+/// from the last answer, and without one.
 Json figures(const Named& body, const Named& shape, int queries, double nearest, const std::string& asked) {
   benchmark::Poses poses;
   benchmark::GeodesicMotion(benchmark::smallStep(), 1, nearest).next(poses, queries);
@@ -111,7 +112,7 @@ int main(int argc, char** argv) {
       for (const auto& [asked, nearest] : questions)
         for (const Named& shape : shapes) {
           const bool unbounded = shape.second->getNodeType() == fcl::GEOM_HALFSPACE;
-          if (unbounded && asked == "distance") continue;  // FCL follows a null pointer
+          if (unbounded && asked == "distance") continue;  // FCL dereferences a null pointer
           Json row = figures(body, shape, queries, nearest, asked);
           std::printf("%s\n", row.dump().c_str());
           result.rows.push_back(std::move(row));

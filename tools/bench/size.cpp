@@ -9,7 +9,8 @@ namespace fcl_stpbv::benchmark {
 
 namespace {
 
-/// A method slower than this many seconds a point answers fewer calls; the file says how many.
+/// If a method needs more than this number of seconds per point, it answers fewer calls. The file contains
+/// their number.
 constexpr double kSecondsAPoint = 10;
 
 }  // namespace

@@ -1,4 +1,4 @@
-// The slides of docs/motion.md: what the proof of a motion near a mesh or a tree costs, down to 1 um of
+// The sliding motions of docs/motion.md: cost of the proof of a motion near a mesh or a tree, down to 1 um of
 // clearance. Usage: slide_figures
 #include <fcl/config.h>
 #include <fcl/geometry/shape/box.h>
@@ -40,10 +40,10 @@ Geometry floorAndWall() {
 struct Body {
   std::string name;
   Geometry geometry;
-  double low;  ///< how far it reaches below its frame's origin (m)
+  double low;  ///< how far the body reaches below its frame's origin (m)
 };
 
-/// 0.8 m along with `room` (m) over the height `top` (m), turned by `turn` (rad) about the vertical.
+/// A motion of 0.8 m with `room` (m) above the height `top` (m), turned by `turn` (rad) about the vertical.
 SteadyMotion over(const Body& body, double top, double room, double turn) {
   SteadyMotion motion;
   motion.begin.translation() = Vector3d(-0.4, 0.02, top + body.low + room);

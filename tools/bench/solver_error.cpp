@@ -1,4 +1,4 @@
-// Time against error: each method over its tolerance; those without one are single points.
+// Time against error: each method over its tolerance. Methods without a tolerance are single points.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -11,18 +11,18 @@ namespace fcl_stpbv::benchmark {
 
 namespace {
 
-constexpr std::size_t kPoseStride = 23;  // the reference of the STP-BVs takes milliseconds
-constexpr double kWrong = 1e-6;          // m: what FCL's default tolerance promises
+constexpr std::size_t kPoseStride = 23;  // because the reference of the STP-BVs takes milliseconds
+constexpr double kWrong = 1e-6;          // m: FCL's default tolerance
 
-/// One method's errors, and what it missed.
+/// The errors of one method, and the number of answers that it missed.
 struct Record {
   std::vector<double> distance, normal;
   int checked = 0, wrong = 0, missed = 0;
 
   void add(const Answer& answer, const Truth& truth, bool smooth) {
     ++checked;
-    // Polyhedra apart are to be found apart; STP-BVs may overlap within their
-    // margins and have an answer then.
+    // Polyhedra that are apart must be found apart. STP-BVs may overlap within their margins, and then they
+    // have an answer.
     if (answer.outcome == Outcome::failed || (!smooth && answer.outcome != Outcome::apart)) {
       ++missed;
       return;
@@ -52,7 +52,7 @@ std::vector<MethodPtr> allMethods(const Bodies& bodies) {
   return methods;
 }
 
-/// The truths of one block, each found when first asked for.
+/// The reference answers of one block, each computed when it is first needed.
 class BlockTruths {
  public:
   explicit BlockTruths(const Bodies& bodies) : bodies_(bodies) {}

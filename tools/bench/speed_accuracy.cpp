@@ -1,5 +1,5 @@
-// Speed and accuracy, this library beside its peers: figures on standard output, or files that
-// `tools/bench/draw` makes the charts and tables of docs/performance.md from.
+// Speed and accuracy of this library and of its peers: figures on standard output, or files from which
+// `tools/bench/draw` makes the charts and tables of docs/performance.md.
 #include "tools/bench/speed_accuracy.h"
 
 #include <cstdio>
@@ -15,7 +15,7 @@ using namespace fcl_stpbv::benchmark;
 
 namespace {
 
-/// Prints the figures of each turn, one JSON object a line; a turn is a run of its own.
+/// Prints the figures of each turn, one JSON object per line. Each turn is a run of its own.
 int printSummary(std::uint64_t seed, int turns, Measurement& result) {
   result.name = "summary";
   result.about = {{"seed", seed}};

@@ -9,14 +9,15 @@ namespace fcl_stpbv::benchmark {
 
 struct SpeedOptions {
   std::uint64_t seed = 1;
-  long calls = 200000;  ///< a point of the size chart
-  int blocks = 24;      ///< of 840 queries, a method and motion of the solver and the model error
+  long calls = 200000;  ///< calls per point of the size chart
+  /// Blocks of 840 queries per method and motion, for the errors of the solver and the model.
+  int blocks = 24;
 };
 
 Measurement solverError(const SpeedOptions& options);  ///< time and error of each method at each tolerance
-Measurement modelError(const SpeedOptions& options);   ///< over-cover beside time and gradient's steepness
-Measurement jumpTest(
-    const SpeedOptions& options);  ///< largest change of the gradient on finer and finer paths
+Measurement modelError(const SpeedOptions& options);   ///< over-cover, time and steepness of the gradient
+/// Largest change of the gradient on finer and finer paths.
+Measurement jumpTest(const SpeedOptions& options);
 Measurement sizeTimes(const SpeedOptions& options);  ///< time against vertices (the paper's figure 8)
 
 }  // namespace fcl_stpbv::benchmark

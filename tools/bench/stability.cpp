@@ -1,5 +1,6 @@
-// The situations in which distance codes break, tried on every method at hand: a count of failures, or a file
-// with every case, from which `tools/bench/draw` makes the tables and the picture of docs/stability.md.
+// Tries situations in which distance codes fail on every available method. Prints the number of failures, or
+// writes a file with every case, from which `tools/bench/draw` makes the tables and the picture of
+// docs/stability.md.
 #include <cstdio>
 #include <exception>
 #include <filesystem>
@@ -23,7 +24,7 @@ std::string hardCases() {
   return self.parent_path().parent_path() / "share/fcl_stpbv/hard_cases";
 }
 
-/// Where a method fails: case by case, on standard error.
+/// Lists the cases in which a method fails on standard error.
 void listFailures(const Results& results, const std::string& id) {
   for (std::size_t m = 0; m < results.methods.size(); ++m)
     for (std::size_t i = 0; i < results.situations.size(); ++i)

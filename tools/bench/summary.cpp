@@ -1,6 +1,9 @@
-// On the geodesic workload: 1. The time of a warm query, and FCL's beside it. 2. Errors of every 997th answer
-// against the reference. 3. How time grows from 12 to 2562 vertices. 4. What overlap costs. Times are medians
-// over blocks; ratios are taken block by block.
+// Summary on the geodesic workload:
+// 1. The time of a warm query, and of FCL's query.
+// 2. Errors of every 997th answer, compared with the reference.
+// 3. The growth of the time from 12 to 2562 vertices.
+// 4. The cost of overlap.
+// Times are medians over blocks. Ratios are taken block by block.
 #include "tools/bench/summary.h"
 
 #include <algorithm>
@@ -15,15 +18,15 @@ namespace fcl_stpbv::benchmark {
 namespace {
 
 constexpr int kBlocks = 300;
-constexpr int kCheckEvery = 997;    // prime: every part of the motion gets its share
+constexpr int kCheckEvery = 997;    // prime, so that every part of the motion is checked
 constexpr int kCheckedPerRun = 60;  // a reference of a large body takes milliseconds
 
 struct Figures {
   double ns, speedup;
 };
 
-/// How many times as long one method takes as the other, block by block: what
-/// slows the machine for a while slows both.
+/// Ratio of the times of two methods, block by block, because a temporary slowdown of the machine affects
+/// both.
 double ratio(const Times& one, const Times& other, Summary& summary) {
   std::vector<double> blocks;
   for (std::size_t i = 0; i < one.block.size(); ++i) blocks.push_back(one.block[i] / other.block[i]);
@@ -59,8 +62,9 @@ Figures measure(const Bodies& bodies, const Step& step, std::uint64_t seed, Summ
   return {median(times[0].block), ratio(times[1], times[0], summary)};
 }
 
-/// How many times as long as with the small bodies a warm query takes with the large ones, the two in turns;
-/// by itself, or with FCL's queries of the large bodies in between, which leave little of ours in the caches.
+/// Ratio of the times of a warm query with the large bodies and with the small ones. The two take turns. With
+/// `besideFcl`, FCL's queries of the large bodies are run in between, which leave little of this library's
+/// data in the caches.
 double growth(const Bodies& small, const Bodies& large, const Step& step, bool besideFcl, std::uint64_t seed,
               Summary& summary) {
   std::vector<MethodPtr> methods;
@@ -72,14 +76,14 @@ double growth(const Bodies& small, const Bodies& large, const Step& step, bool b
   return ratio(times[1], times[0], summary);
 }
 
-/// What a warm query costs where the bodies overlap, in parts of one where they are apart: by up to both
-/// margins and deeper. Medians.
+/// Cost of a warm query for bodies that overlap, relative to its cost for bodies that are apart: with an
+/// overlap of up to both margins, and deeper. Medians.
 struct OverlapCost {
   double withinMargins, deeper;
 };
 
 OverlapCost overlapCost(const Bodies& bodies, std::uint64_t seed) {
-  constexpr int kTimed = 60;  // blocks, each query timed by itself
+  constexpr int kTimed = 60;  // blocks; each query is timed separately
   std::vector<MethodPtr> methods;
   methods.push_back(stpBvWarm(bodies));
   GeodesicMotion motion(smallStep(), seed);

@@ -1,4 +1,4 @@
-// The figures that say in one line how fast and how accurate the solver is.
+// The figures that summarise how fast and how accurate the solver is.
 #pragma once
 
 #include <cstdint>
@@ -8,9 +8,9 @@ namespace fcl_stpbv::benchmark {
 
 struct Summary {
   nlohmann::ordered_json figures;
-  double spread = 0;  ///< of the widest of the measured ratios' blocks
-  int checked = 0, unproven = 0,
-      failed = 0;  ///< queries against the reference; without one; without an answer
+  double spread = 0;  ///< spread of the ratio whose blocks differ most
+  /// Numbers of queries: compared with the reference; without a proven reference; without an answer.
+  int checked = 0, unproven = 0, failed = 0;
 };
 
 Summary summarise(std::uint64_t seed);

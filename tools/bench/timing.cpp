@@ -1,6 +1,9 @@
-// 1. A block of new poses. 2. Each method answers all of them, in an order turned round from block to block;
-// the thread's own time counts. 3. Where single queries are timed, what reading the clock costs is measured
-// first and taken off. The first block is not counted.
+// Times the methods:
+// 1. Make a block of new poses.
+// 2. Each method answers all of them. The order of the methods is reversed from block to block. The thread's
+//    processor time counts.
+// 3. If single queries are timed, the time of reading the clock is measured first and subtracted.
+// The first block is not counted.
 #include "tools/bench/timing.h"
 
 #include <algorithm>
@@ -19,7 +22,7 @@ double nanoseconds(Clock::time_point from, Clock::time_point to) {
   return std::chrono::duration<double, std::nano>(to - from).count();
 }
 
-/// What reading the clock costs.
+/// Time of reading the clock.
 double clockTime() {
   std::vector<double> times(2001);
   for (double& t : times) {

@@ -1,6 +1,9 @@
-// 1. First runs, with r = 5 mm and R = 1 m, tell how fast the bodies move. 2. Radii are advised for each
-// clearance, that motion and a quarter more. 3. Runs with these radii tell what the shapes add to d'' and how
-// much clearance is lost. More added than advised, in motion as stated, is an error.
+// Measures advised radii in three steps.
+// 1. First runs, with r = 5 mm and R = 1 m, show how fast the bodies move.
+// 2. Radii are advised for each clearance and for that motion plus a quarter.
+// 3. Runs with these radii show how much acceleration the shapes add to d'' and how much clearance is lost.
+// More
+//    added acceleration than advised, in a motion within the stated limits, is an error.
 #include "tools/bench/control/advice.h"
 
 #include <algorithm>
@@ -13,12 +16,12 @@
 namespace fcl_stpbv::benchmark {
 namespace {
 
-// What the robot holds, or its foot: the first solid that moves.
+// The first solid that moves: the solid that the robot holds, or its foot.
 const Solid& held(const Scene& scene) {
   return *std::find_if(scene.solids.begin(), scene.solids.end(), [](const Solid& s) { return s.link >= 0; });
 }
 
-/// Largest accelerations and speeds, and least clearance, of some runs.
+/// The largest accelerations and speeds, and the least clearance, of some runs.
 Outcome worst(const std::string& scenario, const Method& method, int runs) {
   LoopOptions loop;
   loop.contacts = true;
@@ -40,7 +43,8 @@ Outcome worst(const std::string& scenario, const Method& method, int runs) {
 Measurement measureAdvice(const std::vector<std::string>& scenarios, int runs) {
   constexpr double kAllowed = 4;                                                    // m/s^2
   constexpr double kClearances[] = {0.5e-3, 1e-3, 2e-3, 4e-3, 8e-3, 16e-3, 32e-3};  // m
-  constexpr double kSpare = 1.25;  // other radii move a little otherwise than the first ones
+  // Because with other radii the robot moves slightly differently than in the first runs.
+  constexpr double kSpare = 1.25;
   Measurement result;
   result.about = {{"runs", runs}};
   for (const std::string& scenario : scenarios) {

@@ -1,4 +1,4 @@
-// Whether advised radii keep their promises in the scenarios of the controller's bench.
+// Checks whether advised radii keep their promises in the scenarios of the controller's benchmark.
 #pragma once
 
 #include <string>
@@ -8,9 +8,9 @@
 
 namespace fcl_stpbv::benchmark {
 
-/// For each scenario and each of some clearances the advice for what is held, and what runs with
-/// it measure. The motion that the advice needs is that of first runs, and a quarter more.
-/// @throws Error where runs that moved as stated had more acceleration added than was allowed.
+/// For each scenario and each of some clearances: the advised radii of the held solid, and the measurements
+/// of runs with them. The motion for the advice is that of first runs, plus a quarter.
+/// @throws Error if runs that moved within the stated limits had more added acceleration than allowed.
 Measurement measureAdvice(const std::vector<std::string>& scenarios, int runs);
 
 }  // namespace fcl_stpbv::benchmark

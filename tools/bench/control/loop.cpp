@@ -1,6 +1,8 @@
-// A tick: 1. The hands' paths become least squares in the joints' velocities. 2. Collision rows come from the
-// library's velocity damper, or from pairs of features. 3. The program is solved within the joints' greatest
-// speed. 4. What the joints are told is measured; true distances are those of the hulls.
+// One tick of the controller:
+// 1. The hands' paths become least squares in the joints' velocities.
+// 2. Collision rows come from the library's velocity damper, or from pairs of features.
+// 3. The program is solved within the joints' largest speed.
+// 4. The joints' commands are measured. True distances are those of the hulls.
 #include "tools/bench/control/loop.h"
 
 #include <algorithm>
@@ -65,7 +67,7 @@ class Controller {
       if (contacts_ && time > scene_.begin) contacts_->measure(now, spread(now.size(), next));
       change = difference;
       qd = next;
-      if (options_.noise)  // read at the next tick: what is true at this one
+      if (options_.noise)  // read at the next tick; the true value is that of this tick
         for (int j : scene_.joints) read[j] = kEncoderStep * std::round(now[j] / kEncoderStep);
       for (int j = 0; j < size_; ++j) q[scene_.joints[at(j)]] += kTick * gain[j] * qd[j];
     }
@@ -73,7 +75,7 @@ class Controller {
   }
 
  private:
-  /// The moved joints' velocities among those of all coordinates.
+  /// Puts the moved joints' velocities into a vector of all coordinates.
   VectorXd spread(Eigen::Index size, const VectorXd& qd) const {
     VectorXd all = VectorXd::Zero(size);
     for (int j = 0; j < size_; ++j) all[scene_.joints[at(j)]] = qd[j];
@@ -104,7 +106,7 @@ class Controller {
     if (v.norm() > 0.3) v *= 0.3 / v.norm();
     MatrixXd linear, angular;
     jacobian(hand.link, is.translation(), linear, angular);
-    if (options_.acceleration) {  // what the velocity shall be one tick later
+    if (options_.acceleration) {  // desired velocity one tick later
       v = linear * qd + kVelocityGain * kTick * (v - linear * qd);
       w = angular * qd + kVelocityGain * kTick * (w - angular * qd);
     }
@@ -154,10 +156,11 @@ class Controller {
 
   VectorXd command(const VectorXd& q, const VectorXd& qd, double time) {
     scene_.kinematics->forward(q, state_);
-    constexpr double kRegular = 1e-3, kFastest = 2;  // of the joints (m^2/rad^2, rad/s)
+    // Regularisation and largest speed of the joints (m^2/rad^2, rad/s).
+    constexpr double kRegular = 1e-3, kFastest = 2;
     MatrixXd H = kRegular * MatrixXd::Identity(size_, size_);
     VectorXd f = VectorXd::Zero(size_);
-    if (options_.acceleration) f = 0.98 * kRegular * qd;  // a little damping of what no task sees
+    if (options_.acceleration) f = 0.98 * kRegular * qd;  // slightly damps motions that no task determines
     error_ = 0;
     for (const Hand& hand : scene_.hands) follow(hand, time, qd, H, f);
     std::vector<VectorXd> rows;

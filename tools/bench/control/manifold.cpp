@@ -1,6 +1,9 @@
-// 1. Each vertex of one body against the box, in the box's frame; where both are boxes, also the other way
-// round. 2. Edges against edges, if they are not parallel, face each other, and their lines are nearest
-// inside both. What is farther than the reach is left out.
+// Finds the pairs of features:
+// 1. Each vertex of one body against the box, in the box's frame. If both are boxes, also in the other order.
+// 2. Edges against edges, if they are not parallel, face each other, and have their lines' nearest points
+// inside
+//    both.
+// Pairs that are farther apart than the reach are left out.
 #include "tools/bench/control/manifold.h"
 
 #include <cmath>
@@ -13,7 +16,7 @@ using Eigen::Vector3d;
 
 bool isBox(const Solid& s) { return s.corners.size() == 8; }
 
-/// Corner 7 is the one with all coordinates positive.
+/// Pairs of vertices and a box. Corner 7 of the box is the one with all coordinates positive.
 void vertexPairs(const std::vector<Vector3d>& vertices, const Isometry3d& pose, const Solid& box,
                  const Isometry3d& poseBox, double reach, bool boxFirst, std::vector<FeaturePair>& found) {
   const Vector3d half = box.corners[7];
@@ -21,7 +24,8 @@ void vertexPairs(const std::vector<Vector3d>& vertices, const Isometry3d& pose, 
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     const Vector3d x = toBox * vertices[i], inside = x.cwiseMin(half).cwiseMax(-half), away = x - inside;
     const double d = away.norm();
-    if (!(d > 0) || d > reach) continue;  // one inside the box has no direction; the others hold the pair
+    // A vertex inside the box has no direction; the other vertices keep the pair apart.
+    if (!(d > 0) || d > reach) continue;
     const Vector3d n = poseBox.linear() * (away / d), at = poseBox * x, on = poseBox * inside;
     const int key = static_cast<int>(i) + (boxFirst ? 1000 : 0);
     found.push_back(boxFirst ? FeaturePair{d, n, on, at, key} : FeaturePair{d, -n, at, on, key});
@@ -42,12 +46,13 @@ void edgePairs(const Solid& a, const Isometry3d& poseA, const Solid& b, const Is
       const Vector3d q = poseB * b.corners[static_cast<std::size_t>(b1)],
                      v = poseB * b.corners[static_cast<std::size_t>(b2)] - q, w = p - q;
       const double uu = u.dot(u), uv = u.dot(v), vv = v.dot(v), det = uu * vv - uv * uv;
-      if (det < 1e-9 * uu * vv) return;  // parallel: their ends against the other body say all
+      // If the edges are parallel, their ends against the other body are enough.
+      if (det < 1e-9 * uu * vv) return;
       const double s = (uv * v.dot(w) - vv * u.dot(w)) / det, t = (uu * v.dot(w) - uv * u.dot(w)) / det;
       if (s <= 0 || s >= 1 || t <= 0 || t >= 1) return;
       const Vector3d first = p + s * u, second = q + t * v, between = second - first;
       const double d = between.norm();
-      // Only edges that look at each other: the bodies' centres lie on either side.
+      // Only edges that face each other, with the bodies' centres on either side.
       if (!(d > 0) || d > reach || between.dot(first - poseA.translation()) <= 0 ||
           between.dot(second - poseB.translation()) >= 0)
         return;

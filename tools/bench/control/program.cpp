@@ -1,5 +1,7 @@
-// 1. The minimum without rows, by Cholesky. 2. If it violates a row: the dual, a complementarity problem, by
-// Bullet's btSolveDantzigLCP. 3. The rows' multipliers move the minimum.
+// Solves the program in three steps:
+// 1. Compute the minimum without rows, by Cholesky.
+// 2. If it violates a row, solve the dual, a complementarity problem, by Bullet's btSolveDantzigLCP.
+// 3. Move the minimum by the rows' multipliers.
 #include "tools/bench/control/program.h"
 
 #include <BulletDynamics/MLCPSolvers/btDantzigLCP.h>
@@ -17,7 +19,7 @@ bool Program::solve(const Eigen::MatrixXd& H, const Eigen::VectorXd& f, const Ei
   if (rows == 0 || (A * x - b).minCoeff() >= 0) return true;
   const Eigen::MatrixXd moved = factor.solve(A.transpose());
   Eigen::MatrixXd dual = A * moved;
-  // Rows that depend on each other stay solvable; a row then gives way by this times its multiplier.
+  // Keeps the dual solvable if rows depend on each other. A row then gives way by 1e-9 times its multiplier.
   dual.diagonal().array() += 1e-9;
   matrix_.assign(dual.data(), dual.data() + dual.size());
   const Eigen::VectorXd side = b - A * x;

@@ -1,6 +1,6 @@
-// Eight scenarios of the robot of data/hrp2_style: boxes in its hands, its arms, a hand and a foot, along
-// tables, a wall, a shelf and each other. A seed varies the waves of their paths. Their pairs become rows of
-// CollisionConstraints, as a method sees the bodies.
+// Eight scenarios for the robot of data/hrp2_style. It moves boxes in its hands, its arms, a hand or a foot
+// along tables, a wall, a shelf and each other. A seed varies the waves of the paths. The pairs become rows
+// of CollisionConstraints, with the bodies of a method.
 #include "tools/bench/control/scene.h"
 
 #include <algorithm>
@@ -47,7 +47,7 @@ Isometry3d placed(const Vector3d& position) {
   return pose;
 }
 
-/// Puts a scene together.
+/// Builds a scene.
 class Builder {
  public:
   explicit Builder(Scene& scene) : scene_(scene), state_(scene.kinematics->makeState()) {}
@@ -64,7 +64,7 @@ class Builder {
     scene_.hands.push_back({index, state_.link[static_cast<std::size_t>(index)], side});
     return scene_.hands.back().start;
   }
-  /// A box that stands still, or is held as it now is.
+  /// Adds a box that is static, or that `link` holds in its present pose.
   int box(const Vector3d& size, const Vector3d& centre, int link = -1) {
     const Isometry3d pose = placed(centre);
     scene_.solids.push_back({link,

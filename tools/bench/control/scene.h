@@ -1,5 +1,5 @@
-// Where a controller runs along something: a robot's arm or leg with what it holds,
-// what is near, and the motion asked for.
+// The scenarios of the controller's benchmark: a robot's arm or leg with a held body, the near bodies, and
+// the desired motion.
 #pragma once
 
 #include <memory>
@@ -10,27 +10,27 @@
 
 namespace fcl_stpbv::benchmark {
 
-/// How bodies are seen by the controller.
+/// The controller's model of the bodies.
 enum class Model {
-  none,      ///< no collision rows: the floor of all figures
-  hull,      ///< convex hulls with a margin r around
-  manifold,  ///< a row for each near pair of a vertex and a body, or of two edges, of hulls with a margin r
-             ///< around
-  smooth,    ///< STP-BVs
-  half       ///< an STP-BV against flat obstacles with a margin r around
+  none,  ///< no collision rows: the lower limit of all figures
+  hull,  ///< convex hulls with a margin r
+  /// A row for each near pair of a vertex and a body, or of two edges, of hulls with a margin r.
+  manifold,
+  smooth,  ///< STP-BVs
+  half     ///< an STP-BV against flat obstacles with a margin r
 };
 
 struct Method {
   Model model;
   double r, R;  ///< m
   std::string name;
-  bool bare = false;  ///< flat obstacles have no margin
+  bool bare = false;  ///< whether flat obstacles have no margin
 };
 
-/// What a method's margins add to the distances of its bodies (m).
+/// Sum of the margins that a method adds between its bodies (m).
 double margins(const Method& method);
 
-/// What one run of a scenario varies.
+/// What varies between the runs of a scenario.
 struct Variation {
   double phase[6], size, tilt, start[3];
 };
@@ -43,9 +43,9 @@ struct Hand {
   double side;  ///< +1 left, -1 right
 };
 
-/// A convex body by its corners.
+/// A convex body, given by its corners.
 struct Solid {
-  int link;  ///< -1: the world
+  int link;  ///< the link that holds it; -1: the world
   Eigen::Isometry3d pose;
   std::vector<Eigen::Vector3d> corners;
 };
@@ -59,12 +59,12 @@ struct Scene {
   Eigen::VectorXd start;
   std::vector<Hand> hands;
   std::vector<Solid> solids;
-  std::vector<std::pair<int, int>> pairs;  ///< of solids
-  double begin;                            ///< what comes before is the approach (s)
+  std::vector<std::pair<int, int>> pairs;  ///< pairs of solids
+  double begin;                            ///< end of the approach (s)
   std::string scenario;
   Variation variation;
 
-  /// Pose asked of a hand at a time.
+  /// Desired pose of a hand at a time.
   Eigen::Isometry3d target(const Hand& hand, double time) const;
 };
 
@@ -73,7 +73,8 @@ const std::vector<std::string>& scenarios();
 /// @throws Error for an unknown scenario.
 Scene makeScene(const std::string& scenario, int seed);
 
-/// The scene's pairs as that method sees them; a hull's margins are not in its distances. Null for `none`.
+/// The scene's pairs with the bodies of a method. A hull's margins are not part of its distances. Null for
+/// `none`.
 std::unique_ptr<CollisionConstraints> constraintsOf(const Scene& scene, const Method& method);
 
 }  // namespace fcl_stpbv::benchmark

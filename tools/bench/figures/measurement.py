@@ -1,4 +1,4 @@
-"""Files of measurements as the benchmarks in C++ write them (tools/bench/measurement.h): one row a line."""
+"""Files of measurements in the format of the C++ benchmarks (tools/bench/measurement.h): one row per line."""
 import json
 import pathlib
 import re
@@ -10,7 +10,7 @@ def processor():
 
 
 def write(folder, name, command, about, rows, machine=""):
-    """NAME.json in the folder, whole or not at all."""
+    """Writes NAME.json into the folder, completely or not at all."""
     content = {"command": command, "machine": machine, "spread": 0, "about": about}
     text = "{\n" + "".join(f"{json.dumps(key)}: {json.dumps(value)},\n" for key, value in content.items())
     text += '"rows": [\n' + ",\n".join(map(json.dumps, rows)) + "\n]\n}\n"

@@ -84,7 +84,7 @@ def proof_boxes(height=420):
 
 
 def radii(height=420):
-    """What r saves in collisions and costs in the gradient's steadiness, for whole robots."""
+    """What r saves in collisions, and what it costs in smoothness of the gradient, for whole robots."""
     data = measured("radii")
     robots = list(dict.fromkeys(row["robot"] for row in data["rows"]))
     top = 1.15 * max(row["margin only"] for row in data["rows"]) + 1
@@ -173,12 +173,12 @@ def clearance(height=480):
 
 
 def advice(height=460):
-    """What advised radii promise and keep, and what clearance buys at the joints."""
+    """How well advised radii keep their promise, and how much a larger clearance helps the joints."""
     data = measured("control_advice")
     scenarios = dict(zip(dict.fromkeys(row["scenario"] for row in data["rows"]), palette.SWEEPS))
     asked = min(row["at_most"] for row in data["rows"])
     share = lambda row: row["added"] / row["at_most"] if row["as_stated"] else None
-    flattest = sorted((row for row in data["rows"] if row["scenario"] == "wall"), key=lambda row: row["R"])[-1:]  # why its joints jerk there
+    flattest = sorted((row for row in data["rows"] if row["scenario"] == "wall"), key=lambda row: row["R"])[-1:]  # shows why its joints jerk there
     small_print = [f"Radii advised for a clearance and at most {asked:g} m/s² that the shapes may add; what is held moves at 1 kHz, the obstacle flat (boxes: both round).",
                    f"Open: so little clearance that the advice says its bound is above {asked:g} m/s². Left: only runs that moved as stated.", data["command"]]
     text = panels(2, height, small_print, legend_rows=1, panel_titles=True) + \
@@ -203,7 +203,7 @@ def advice(height=460):
 
 
 def parts(height=440):
-    """How near convex parts are to their meshes, by their number and by what they cost a controller."""
+    """How close convex parts are to their meshes, depending on their number and on what they cost a controller."""
     data = measured("parts")
     rows, costs, links = data["rows"], data["about"]["ticks"], data["about"]["concave_links"]
     hulls = {row["mesh"]: row["hull_excess"] for row in rows}

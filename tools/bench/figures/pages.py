@@ -9,7 +9,7 @@ MARKED = re.compile(r"(<!-- table: (\w+) -->\n).*?(<!-- end of table -->\n)", re
 
 
 def filled(text, page):
-    """The page's text with all its tables made anew."""
+    """The page's text with all its tables filled again."""
     def replace(match):
         if match[2] not in TABLES:
             sys.exit(f"{page}: unknown table {match[2]}, expected one of: {' '.join(TABLES)}")
@@ -34,7 +34,7 @@ def fill():
 
 
 def check():
-    """1 if a page says something else than the measurements, else 0."""
+    """Returns 1 if a page differs from the measurements, else 0."""
     stale = [str(page.relative_to(PROJECT)) for page in pages() if filled(page.read_text(), page.name) != page.read_text()]
     for page in stale:
         print(f"{page}: a table differs from docs/measured; run tools/bench/draw", file=sys.stderr)

@@ -9,7 +9,7 @@ METHODS = {
     "FCL indep": ("#d2722f", 5, "FCL indep"),
     "Bullet GJK": ("#8172b3", 9, "Bullet GJK"),
 }
-# SMOOTH is this library, SECOND another way to use it; FCL stands for polyhedra as FCL users ask for them.
+# SMOOTH is this library, SECOND another way to use it. FCL stands for polyhedra as FCL's users query them.
 SMOOTH, SECOND, _, FCL, _, OTHER = (METHODS[name][0] for name in METHODS)
 # Other ways to use hulls. HULL_MARGIN: a margin r around them, and exact distances.
 MANIFOLD, HULL_MARGIN, ROUNDED_FCL, HACD = "#b8860b", "#4d4d4d", "#8e1c5a", "#7f8f2a"
@@ -24,6 +24,6 @@ VERDICTS = (("exact", "#d9e8d4"), ("within 1e-6, or local and said so", "#a9c9e8
 
 
 def look(method):
-    """gnuplot's words for a method's lines and marks."""
+    """gnuplot's options for a method's lines and marks."""
     colour, mark, _ = METHODS[method]
     return f"lc rgb '{colour}' pt {mark}"

@@ -15,24 +15,24 @@ TIME_TICS = "('10 ns' 1e1, '100 ns' 1e2, '1 µs' 1e3, '10 µs' 1e4, '100 µs' 1e
 
 
 def measured(name):
-    """A measurement: command, machine, spread, about, rows. The folder of robots that are no part of the project is $ROBOTS (CONTRIBUTING.md)."""
+    """A measurement: command, machine, spread, about, rows. $ROBOTS stands for the folder of robots that are not part of the project (CONTRIBUTING.md)."""
     data = json.loads((MEASURED / f"{name}.json").read_text())
     return {**data, "command": data["command"].replace("../shared/robots", "$ROBOTS")}
 
 
 def is_text(name):
-    """Whether a measurement is a program's output as it was printed."""
+    """Whether a measurement is a program's printed output."""
     return (MEASURED / f"{name}.txt").exists()
 
 
 def captured(name):
-    """A program's output that is kept as it was printed: (command, lines)."""
+    """A program's printed output: (command, lines)."""
     first, *lines = (MEASURED / f"{name}.txt").read_text().splitlines()
     return first.removeprefix("$ "), lines
 
 
 def origin(measurement, words):
-    """The lines under a chart: what was asked, and where and how steadily it was timed."""
+    """The lines under a chart: what was measured, and on which machine and how reproducibly."""
     machine = measurement["machine"]
     if measurement["spread"]:
         machine += f"; repeated blocks agree within {100 * measurement['spread']:.0f} %"
@@ -44,18 +44,18 @@ def quoted(words):
 
 
 def ticks(*values):
-    """gnuplot's words for ticks at these values, thousands parted by commas."""
+    """gnuplot's list of ticks at these values, with commas between thousands."""
     return "(" + ", ".join(f"'{value:,}' {value}" for value in values) + ")"
 
 
 def block(name, rows):
-    """Data that later commands call `name`. None is a gap."""
+    """A data block that later commands call `name`. None is a gap."""
     cell = lambda value: '"' + value + '"' if isinstance(value, str) else "NaN" if value is None else f"{value:g}"
     return f"{name} << EOD\n" + "\n".join(" ".join(map(cell, row)) for row in rows) + "\nEOD\n"
 
 
 def draw(name, title, commands, below=(), height=420, width=WIDTH, crisp=False):
-    """Writes NAME.svg whole or not at all. `below`: lines of small print. `crisp`: cells that touch leave no seam between them."""
+    """Writes NAME.svg completely or not at all. `below`: lines of small print. `crisp`: no seams between cells that touch."""
     if not shutil.which("gnuplot"):
         sys.exit("the charts need gnuplot (Debian package gnuplot-nox)")
     IMAGES.mkdir(parents=True, exist_ok=True)
@@ -77,7 +77,7 @@ def draw(name, title, commands, below=(), height=420, width=WIDTH, crisp=False):
 
 
 def margins(height, small_print, legend_rows=0, panel_titles=False, left=92, width=WIDTH):
-    """(left, right, bottom, top) edges of the plotting area, as shares of the picture."""
+    """The edges (left, right, bottom, top) of the plotting area, as shares of the picture."""
     top = 44 + 22 * legend_rows + (20 if panel_titles else 0)
     return left / width, 1 - 30 / width, (66 + 16 * len(small_print)) / height, 1 - top / height
 
@@ -98,12 +98,13 @@ def legend(entries, height, columns=3, width=WIDTH):
     text = "set key off\n"
     for i, (colour, mark, words) in enumerate(entries):
         x, y = 24 + (i % columns) * (width - 30) / columns, 48 + 22 * (i // columns)
-        level = y + {9: 1, 11: -1}.get(mark, 0)  # triangles are not drawn around their middle
+        level = y + {9: 1, 11: -1}.get(mark, 0)  # triangles are not centred on their position
         at = f"at screen {x / width:.4f},{1 - level / height:.4f}"
         text += f"set label {120 + 2 * i} '' {at} point pt {mark} ps 1 lc rgb '{colour}'\n"
         text += f"set label {121 + 2 * i} {quoted(words)} at screen {(x + 14) / width:.4f},{1 - y / height:.4f} left font ',13'\n"
     return text
 
 
-# After the first panel of several: else each panel would print the title, the legend and the small print again.
+# To be called after the first of several panels, because otherwise each panel would print the title, the
+# legend and the small print again.
 UNLABEL = "".join(f"unset label {i}\n" for i in range(101, 140))

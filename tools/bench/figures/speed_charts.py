@@ -2,12 +2,12 @@
 from . import palette
 from .plot import TIME_TICS, UNLABEL, block, draw, legend, measured, origin, panels, single, ticks
 
-ROBOTS = {"jvrc1": "JVRC-1"}  # its name in the pages, where that is not its file's
+ROBOTS = {"jvrc1": "JVRC-1"}  # a robot's name in the pages, if it differs from its file's name
 STEPS = {"small": "small steps: 1° and 1 mm", "large": "large steps: 20° and 2 cm"}
 
 
 def default_setting(row):
-    """One setting a method: FCL's default tolerance, our warm start of its GJK."""
+    """One setting per method: FCL's default tolerance, and the warm start of this library's GJK."""
     return row["setting"] in ("tolerance 1e-06", "double precision") or \
         row["method"].startswith("STP-BV") or (row["method"], row["setting"]) == ("FCL with gap stop", "warm")
 
@@ -19,13 +19,13 @@ def method_legend(rows, height):
 
 
 def speed_accuracy(height=440):
-    """The first page: each method a point, worst error against median time."""
+    """The chart of the README: one point per method, worst error against median time."""
     data = measured("solver_error")
     rows = {row["method"]: row for row in data["rows"] if row["steps"] == "large" and default_setting(row)}
     ours, fcl = rows["STP-BV warm"], rows["FCL libccd"]
     below = origin(data, [f"{data['about']['vertices']} vertices a body, 20° and 2 cm between queries. Up: p5 to p99, mark at the median. Across: median to worst of "
                           f"{ours['checked']} answers,", "mark at the worst. Polyhedral methods against the polyhedra, with FCL's default tolerance; STP-BV against the STP-BVs."])
-    floor = 2e-18  # where a median error of nothing is drawn
+    floor = 2e-18  # where an error of 0 is drawn
     offset = {"FCL with gap stop": "1.6,0.7", "STP-BV through FCL": "1.6,-0.3", "STP-BV warm": "1.6,-0.3", "Bullet GJK": "-11,0.8"}
     scale = {"FCL with gap stop": 1.9, "STP-BV through FCL": 1.1}  # one lies on the other
     text = single(height, below) + "set logscale xy\nset xrange [1e-18:1e-1]\nset yrange [50:3e4]\nset format x '1e%T'\n" \
@@ -96,7 +96,7 @@ def solver_error(height=450):
             else:
                 points, marked = [(x, row[column]) for row in mine if default_setting(row) for x in (1e-1, 1e-13)], "lines"
                 levels += [points[0][1]] if points else []
-                # Lines that lie on each other show whose they are by marks that take turns.
+                # Where lines coincide, alternating marks show which methods they belong to.
                 text += block(f"$marks{panel}{i}", [(10.0 ** -x, points[0][1]) for x in range(2 + 2 * (i % 3), 14, 6)] if points else [])
             if points:
                 text += block(f"${panel}{i}", points)
@@ -146,7 +146,7 @@ def jump_test(height=440):
     text = single(height, below, legend_rows=2) + "set logscale xy\nset xrange [20:150000]\nset yrange [1e-6:1]\nset format y '1e%T'\n" \
         f"set xtics {ticks(100, 1000, 10000, 100000)}\n" \
         "set xlabel 'steps of the path'\nset ylabel 'largest change in one step'\n"
-    # Those that lie on each other: wide below, narrow above, open marks around small ones.
+    # For lines that coincide: wide ones below, narrow ones above, open marks around small ones.
     looks = {"FCL libccd": (6, 1.9), "FCL indep": (4, 1.4), "Bullet GJK": (8, 1.1), "FCL with gap stop": (11, 0.7),
              "STP-BV through FCL": (12, 1.9), "STP-BV warm": (7, 0.7)}
     plots, entries = [], []
@@ -162,7 +162,7 @@ def jump_test(height=440):
 
 
 def collide(height=460):
-    """Contacts and booleans beside FCL's own, body by body, the deeper the further left."""
+    """Contacts and yes-or-no answers of this library and FCL, body by body, deeper ones further to the left."""
     data = measured("collide")
     ways = (("ns_fcl", palette.FCL, 7, "fcl::collide"), ("ns_cold", palette.SECOND, 13, "fcl_stpbv::collide, no memory"),
             ("ns_warm", palette.SMOOTH, 7, "the same with a PairCache"))

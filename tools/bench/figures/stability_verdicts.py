@@ -37,7 +37,7 @@ def failures(data):
 
 
 def cell(cases, m):
-    """What one method makes of a group: number of failures, index into the palette's verdicts, words."""
+    """The result of one method for a group: number of failures, index into the palette's verdicts, words."""
     judged = [(ORDER.index(row["verdicts"][m]), row["amounts"][m]) for row in cases]
     worst, amount = max(judged)
     count = collections.Counter(ORDER[verdict] for verdict, _ in judged)

@@ -12,7 +12,7 @@ TABLES = {}
 
 
 def table(*sources):
-    """Registers a table under its function's name, below the commands of these measurements."""
+    """Registers a table under its function's name, and puts the commands of these measurements above it."""
     def register(function):
         def lines():
             commands = [captured(source)[0] if is_text(source) else measured(source)["command"] for source in sources]
@@ -298,13 +298,13 @@ def parts_by_link():
 
 
 def mm(metres):
-    """Two digits after the point; what is below is known to a hundredth of a millimetre."""
+    """Millimetres with two digits after the decimal point; smaller values are known to a hundredth of a millimetre."""
     return f"{1e3 * metres:.2f}"
 
 
 @table("parts")
 def parts():
-    """The links, mirrored ones once."""
+    """The parts of each link. Of mirrored links, only one is listed."""
     links = {name: rows for name, rows in parts_by_link().items() if not (name.startswith("L_") and "R" + name[1:] in parts_by_link())}
     counts = list(dict.fromkeys(most for rows in links.values() for _, most in rows))
     cell = lambda rows, most: f"{mm(rows['ours', most]['excess'])} ({rows['ours', most]['parts']}) / {mm(rows['HACD', most]['excess'])} ({rows['HACD', most]['parts']})"
@@ -315,7 +315,7 @@ def parts():
 
 @table("parts")
 def parts_summary():
-    links, level = parts_by_link(), 1e-5  # m, that the bounds are within of the truth
+    links, level = parts_by_link(), 1e-5  # m, the accuracy of the bounds
     body = []
     for most in dict.fromkeys(most for rows in links.values() for _, most in rows):
         pairs = [(rows["ours", most], rows["HACD", most]) for rows in links.values()]
@@ -386,7 +386,7 @@ def three(value):
 
 
 def controllers(*names):
-    """The rows of some measurements of control_bench: {(scenario, method): row}, and their scenarios."""
+    """The rows of some measurements of control_bench, {(scenario, method): row}, and their scenarios."""
     rows = [row for name in names for row in measured(name)["rows"]]
     return {(row["scenario"], row["method"]): row for row in rows}, list(dict.fromkeys(row["scenario"] for row in rows))
 
@@ -430,7 +430,7 @@ def control_advice():
 
 @table("control", "control_more", *(f"optimise_{task}" for task in TASKS), "posture_study")
 def continuity():
-    """All tasks: what hulls need, what their manifold of rows needs, what STP-BVs need."""
+    """All tasks: what hulls, their manifold of rows, and STP-BVs need."""
     at, scenarios = controllers("control", "control_more")
     names = [CONTROLLERS[key] for key in ("hull + r", "manifold", "STP-BV R = 10", "STP-BV R = 1", "flat, R = 1")]
     body = [(f"controller, {SCENARIOS[s]}", "peak rad/s²", *(three(at[s, m]["peak"]) if (s, m) in at else "-" for m in names)) for s in scenarios]

@@ -98,10 +98,11 @@ Solution solveByIpopt(Nlp& nlp, const VectorXd& start, Solver solver, bool warm)
   options.SetStringValue("sb", "yes");
   options.SetIntegerValue("max_iter", warm ? 100 : 300);
   options.SetNumericValue("tol", 1e-8);
-  options.SetIntegerValue("acceptable_iter", 0);     // only the full accuracy counts
+  options.SetIntegerValue("acceptable_iter", 0);     // only full accuracy counts as solved
   options.SetNumericValue("bound_relax_factor", 0);  // no row is violated by design
   if (solver == Solver::limited) options.SetStringValue("hessian_approximation", "limited-memory");
-  if (warm) {  // the last barrier of the program before; its solution is not pushed away from its rows
+  if (warm) {  // start with the last barrier of the program before, and do not push its solution away from
+               // its rows
     options.SetNumericValue("mu_init", 1e-6);
     for (const char* push : {"bound_push", "bound_frac", "slack_bound_push", "slack_bound_frac"})
       options.SetNumericValue(push, 1e-6);

@@ -1,4 +1,4 @@
-// IPOPT, apart from the rest: its headers need flags of their own.
+// IPOPT, in a file of its own because its headers need special flags.
 #pragma once
 
 #include "tools/bench/optimise/solver.h"

@@ -1,5 +1,6 @@
-// Rows and their Jacobian are those of CollisionConstraints at each knot. Second derivatives are its own; for
-// hulls they are central differences of the gradient, or those of one side where it jumps on the other.
+// Rows and their Jacobian come from CollisionConstraints at each knot. So do second derivatives, except for
+// hulls: there they are central differences of the gradient, or differences on one side if the gradient jumps
+// on the other.
 #include "tools/bench/optimise/nlp.h"
 
 namespace fcl_stpbv::benchmark {
@@ -29,7 +30,8 @@ Nlp::Nlp(const Task& task, const Method& method) : task_(task), method_(method) 
   if (task.clearance)
     for (int row = 0; row < rows(); ++row) jacobianPlaces_.push_back({row, variables() - 1});
   values_.resize(rows());
-  entries_.setConstant(static_cast<Eigen::Index>(jacobianPlaces_.size()), -1);  // d - clearance
+  // The derivative of d - clearance by the clearance.
+  entries_.setConstant(static_cast<Eigen::Index>(jacobianPlaces_.size()), -1);
 }
 
 void Nlp::evaluate(const VectorXd& x) {
@@ -75,12 +77,13 @@ void Nlp::hessian(const VectorXd& x, double scale, const VectorXd& weights, bool
   }
 }
 
-// Two polyhedra have no closed form here. Where the gradient jumps to one side, that of the other side
-// counts: the second derivative of the features at hand, not the jump over the step.
+// Two polyhedra have no closed form here. If the gradient jumps on one side, the difference on the other side
+// is used: it is the second derivative of the present features, not the jump divided by the step.
 void Nlp::ofHulls(std::size_t knot, const VectorXd& q, const VectorXd& weights,
                   CollisionConstraints::SparseHessian& lower) {
-  constexpr double kStep = 1e-6;  // m, rad: errors of 1e-10 in the gradient become 1e-4
-  constexpr double kJump = 1e-3;  // of the gradient over a step; what is smooth turns by 1e-4 at most
+  constexpr double kStep = 1e-6;  // m, rad: an error of 1e-10 in the gradient becomes 1e-4
+  // Change of the gradient over a step; a smooth gradient changes by at most 1e-4.
+  constexpr double kJump = 1e-3;
   CollisionConstraints& c = *constraints_[knot];
   VectorXd d(c.rows());
   Eigen::MatrixXd here(c.rows(), c.columns()), after(here), before(here);

@@ -1,4 +1,5 @@
-// A task whose distances come from one model of its bodies, with exact derivatives, as optimisers ask for it.
+// A task with the distances of one model of its bodies, with exact derivatives, in the form that optimisers
+// need.
 #pragma once
 
 #include <memory>
@@ -16,24 +17,24 @@ class Nlp {
   const Task& task() const { return task_; }
   int variables() const { return static_cast<int>(task_.c.size()); }
   int rows() const { return task_.knots * constraints_[0]->rows(); }
-  /// Row and column of each entry of the rows' Jacobian, and of the lower triangle of a Lagrangian's Hessian;
-  /// of the latter the same place may come twice, for a sum.
+  /// Row and column of each entry of the rows' Jacobian, or of the lower triangle of a Lagrangian's Hessian.
+  /// In the latter a place may occur twice; then the entries are added.
   struct Place {
     int row, column;
   };
   const std::vector<Place>& jacobianPlaces() const { return jacobianPlaces_; }
   const std::vector<Place>& hessianPlaces() const { return hessianPlaces_; }
 
-  /// Rows, and the entries of their Jacobian, at x; kept until the next x.
+  /// The rows at x, and the entries of their Jacobian; kept until the next x.
   const Eigen::VectorXd& values(const Eigen::VectorXd& x);
   const Eigen::VectorXd& jacobian(const Eigen::VectorXd& x);
-  /// Of scale * cost + weights . rows. Without `curvature` the rows count as flat: Gauss-Newton.
+  /// The Hessian of scale * cost + weights . rows. Without `curvature` the rows count as flat (Gauss-Newton).
   void hessian(const Eigen::VectorXd& x, double scale, const Eigen::VectorXd& weights, bool curvature,
                Eigen::VectorXd& entries);
   double violation(const Eigen::VectorXd& x) { return std::max(0.0, -values(x).minCoeff()); }
 
-  long points = 0;    ///< different x at which rows were asked for
-  long hessians = 0;  ///< second derivatives asked for
+  long points = 0;    ///< number of different x for which rows were computed
+  long hessians = 0;  ///< number of second derivatives computed
 
  private:
   void evaluate(const Eigen::VectorXd& x);

@@ -25,7 +25,7 @@ double cost(unsigned n, const double* x, double* gradient, void* self) {
   return task.cost(ConstMap(x, n));
 }
 
-// NLopt wants rows that are at most 0.
+// NLopt requires rows that are at most 0.
 void rows(unsigned m, double* result, unsigned n, const double* x, double* jacobian, void* self) {
   Nlp& nlp = *static_cast<Nlp*>(self);
   Map<VectorXd>(result, m) = -nlp.values(ConstMap(x, n));
@@ -54,7 +54,8 @@ Solution solveByNlopt(Nlp& nlp, const VectorXd& start, Solver solver) {
   const std::vector<double> tolerance(static_cast<std::size_t>(nlp.rows()), 1e-9);
   nlopt_add_inequality_mconstraint(opt.get(), static_cast<unsigned>(nlp.rows()), rows, &nlp,
                                    tolerance.data());
-  // Near IPOPT's 1e-8 of the gradient: the cost is quadratic, so its own change is about the square of x's.
+  // Similar to IPOPT's 1e-8 for the gradient: the cost is quadratic, so its change is about the square of x's
+  // change.
   stopAt(opt.get(), 1e-9, 1e-13, 3000);
   if (solver == Solver::augmented) {
     const Optimiser inner(nlopt_create(NLOPT_LD_LBFGS, n));

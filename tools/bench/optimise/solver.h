@@ -1,4 +1,4 @@
-// The optimisers that are compared: IPOPT with three kinds of second derivatives, and NLopt's.
+// The optimisers that are compared: IPOPT with three kinds of second derivatives, and two methods of NLopt.
 #pragma once
 
 #include "tools/bench/optimise/nlp.h"
@@ -15,10 +15,10 @@ enum class Solver {
 
 struct Solution {
   Eigen::VectorXd x;
-  bool converged = false;  ///< what the solver says
+  bool converged = false;  ///< whether the solver reports convergence
 };
 
-/// `warm`: the start is close to a solution, as from a neighbouring program.
+/// `warm`: the start is close to a solution, for example that of a neighbouring program.
 Solution solve(Nlp& nlp, const Eigen::VectorXd& start, Solver solver, bool warm = false);
 
 }  // namespace fcl_stpbv::benchmark

@@ -1,5 +1,8 @@
-// Four tasks of boxes; a seed varies sizes and starts. place: put a box onto a plate. slot: the widest
-// clearance between two plates. pack: pull five together. corner: a path around a block's corner.
+// Four tasks of boxes; a seed varies sizes and starts.
+// place: put a box onto a plate.
+// slot: find the pose with the widest clearance between two plates.
+// pack: pull five boxes together.
+// corner: find a path around a block's corner.
 #include "tools/bench/optimise/task.h"
 
 #include <algorithm>
@@ -28,8 +31,8 @@ class Random {
   std::mt19937 engine_;
 };
 
-/// Three slides and three hinges for each body. The hinges' order keeps the singular position, the second one
-/// at a right angle, away from the paths below.
+/// Three sliding and three turning joints for each body. The order of the turning joints keeps the singular
+/// position (the second one at a right angle) away from the paths below.
 std::shared_ptr<const Kinematics> freeBodies(int count) {
   std::string text = "<robot name=\"boxes\"><link name=\"world\"/>";
   const char* axes[6] = {"1 0 0", "0 1 0", "0 0 1", "0 1 0", "1 0 0", "0 0 1"};
@@ -63,7 +66,7 @@ class TaskBuilder {
     task_.upper = VectorXd::Constant(n, 10);
   }
 
-  /// A free body, turned about z in its link by that angle.
+  /// Adds a free body, whose box is turned by `turned` in its link.
   void body(const Vector3d& size, const Isometry3d& turned = Isometry3d::Identity()) {
     const std::string link = "body" + std::to_string(task_.scene.solids.size());
     task_.scene.solids.push_back({task_.scene.kinematics->robot().link(link), turned, boxCorners(size)});
@@ -72,7 +75,11 @@ class TaskBuilder {
     task_.scene.solids.push_back({-1, pose, boxCorners(size)});
     task_.scene.pairs.emplace_back(0, static_cast<int>(task_.scene.solids.size()) - 1);
   }
-  /// weight |position - p|^2 / 2 + turning |angles - w|^2 / 2 of a body.
+  /// Adds weight
+  /// position - p
+  /// ^2 / 2 + turning
+  /// angles - w
+  /// ^2 / 2 for a body.
   void towards(int body, const Coordinates& goal, double weight, double turning) {
     for (int k = 0; k < 6; ++k) {
       const double w = k < 3 ? weight : turning;
@@ -81,7 +88,7 @@ class TaskBuilder {
       task_.constant += 0.5 * w * goal[k] * goal[k];
     }
   }
-  /// The mean squared acceleration from rest to rest; 10 cm count as much as a radian.
+  /// Adds the mean squared acceleration from rest to rest; 10 cm count as much as a radian.
   void smoothPath(const Coordinates& from, const Coordinates& to) {
     const int knots = task_.knots;
     const double rate = knots + 1;
@@ -117,7 +124,7 @@ class TaskBuilder {
 
 Isometry3d turnedAboutZ(double angle) { return Isometry3d(Eigen::AngleAxisd(angle, Vector3d::UnitZ())); }
 
-/// A box onto a plate, towards a place inside it: flush at the optimum.
+/// A box onto a plate, towards a place inside it. At the optimum the faces touch flush.
 Task place(Random& random) {
   TaskBuilder build("place", 1, 1, false);
   const Vector3d size(random.in(0.08, 0.2), random.in(0.08, 0.2), random.in(0.05, 0.1));

@@ -1,16 +1,16 @@
-// What an optimiser is asked for: boxes that move freely, a quadratic cost and rows d >= 0.
+// The tasks for optimisers: boxes that move freely, a quadratic cost and rows d >= 0.
 #pragma once
 
 #include "tools/bench/control/scene.h"
 
 namespace fcl_stpbv::benchmark {
 
-/// A program in the coordinates x: for each knot (a moment of a trajectory) those of all free bodies,
-/// position and angles about y, x and z (m, rad); then, with `clearance`, one more, the distance that every
-/// row must have (m).
+/// A program in the coordinates x. For each knot (a moment of a trajectory), x has the coordinates of all
+/// free bodies: position and angles about y, x and z (m, rad). With `clearance`, the last coordinate is the
+/// distance that every row must have (m).
 struct Task {
   std::string name;
-  Scene scene;  ///< the bodies, and which of their distances are rows
+  Scene scene;  ///< the bodies, and the pairs whose distances are rows
   int knots = 1;
   bool clearance = false;
   /// The cost is x'Qx/2 + c'x + constant.

@@ -1,5 +1,7 @@
-// 1. Corners at one place are made one, as HACD wants corners that triangles share. 2. HACD partitions the
-// triangles; the number of clusters alone decides. 3. A cluster's points are its triangles' corners.
+// Runs HACD:
+// 1. Merge corners at the same place, because HACD needs corners that triangles share.
+// 2. HACD partitions the triangles. Only the number of clusters decides.
+// 3. A cluster's points are its triangles' corners.
 #include "tools/bench/parts/hacd.h"
 
 #include <hacdHACD.h>
@@ -25,15 +27,16 @@ std::vector<std::vector<Eigen::Vector3d>> hacdClusters(const TriangleMesh& mesh,
     if (corner[0] != corner[1] && corner[1] != corner[2] && corner[2] != corner[0])
       triangles.emplace_back(corner[0], corner[1], corner[2]);
   }
-  const std::vector<HACD::Vec3<HACD::Real>> given = points;  // HACD scales the points it is given
+  // A copy, because HACD scales the points it is given.
+  const std::vector<HACD::Vec3<HACD::Real>> given = points;
   HACD::HACD hacd;
   hacd.SetPoints(points.data());
   hacd.SetNPoints(points.size());
   hacd.SetTriangles(triangles.data());
   hacd.SetNTriangles(triangles.size());
   hacd.SetNClusters(static_cast<std::size_t>(count));
-  hacd.SetConcavity(1e9);    // the number of clusters alone decides
-  hacd.SetConnectDist(1e9);  // loose pieces are joined as well
+  hacd.SetConcavity(1e9);    // so that only the number of clusters decides
+  hacd.SetConnectDist(1e9);  // so that loose pieces are joined too
   hacd.SetCompacityWeight(0.0001);
   hacd.SetVolumeWeight(0.0);
   hacd.SetNVerticesPerCH(100);

@@ -1,6 +1,8 @@
-// 1. Pairs whose bounding spheres are farther apart than the influence are not asked about. 2. The others:
-// fcl::distance, or FCL's GJK with a stop that proves convergence. 3. Where hulls overlap, fcl::collide's
-// depth and normal. 4. The gradient is the normal times the witness points' velocities.
+// Computes the rows of hulls:
+// 1. Pairs whose bounding spheres are farther apart than the influence are not queried.
+// 2. For the others: fcl::distance, or FCL's GJK with a stopping criterion that proves convergence.
+// 3. If hulls overlap: fcl::collide's depth and normal.
+// 4. The gradient is the normal times the witness points' velocities.
 #include "tools/bench/posture_study/hull_rows.h"
 
 #include <fcl/narrowphase/collision.h>
@@ -15,7 +17,7 @@ namespace {
 
 using detail::at;
 
-// The polyhedron under a volume, as FCL's own class and not recognised as anything else.
+// The polyhedron under a volume, as FCL's own class, so that it is not recognised as an STP-BV.
 std::shared_ptr<fcl::CollisionGeometryd> hullOf(const Body& body) {
   const StpBvGeometry* smooth = asStpBv(body.geometry.get());
   if (!smooth) return body.geometry;

@@ -1,4 +1,4 @@
-// The distances of convex hulls as constraint rows, in place of those of STP-BVs: what an optimiser is given
+// The distances of convex hulls as constraint rows, instead of those of STP-BVs: the input of an optimiser
 // without the smooth volumes.
 #pragma once
 
@@ -15,13 +15,13 @@ namespace fcl_stpbv::tools {
 
 enum class HullDistance {
   fcl,    ///< fcl::distance, tolerance 1e-10
-  exact,  ///< FCL's GJK with a stop that proves convergence
+  exact,  ///< FCL's GJK with a stopping criterion that proves convergence
 };
 
-/// One row per pair: distance of the hulls, or minus FCL's penetration depth where they overlap, less a
+/// One row per pair: the distance of the hulls, or minus FCL's penetration depth if they overlap, minus a
 /// rounding radius for each body of the robot. The gradient is that of the witness points, or of the
 /// contact's normal. As in CollisionConstraints, pairs with bounding spheres farther apart than `influence`
-/// are not asked about.
+/// are not queried.
 class HullRows : public PostureRows {
  public:
   HullRows(std::shared_ptr<const Kinematics> kinematics, std::shared_ptr<const RobotGeometry> geometry,
@@ -37,7 +37,7 @@ class HullRows : public PostureRows {
  private:
   struct Answer {
     double distance;
-    Eigen::Vector3d normal, point1, point2;  // from 1 to 2; zero where nothing is known
+    Eigen::Vector3d normal, point1, point2;  // from 1 to 2; zero if nothing is known
   };
   Answer ask(const fcl::CollisionGeometryd& a, const Eigen::Isometry3d& poseA,
              const fcl::CollisionGeometryd& b, const Eigen::Isometry3d& poseB) const;
@@ -48,8 +48,9 @@ class HullRows : public PostureRows {
   std::shared_ptr<const RobotGeometry> geometry_;
   std::vector<CheckedPair> pairs_;
   std::vector<Obstacle> obstacles_;
-  std::vector<std::shared_ptr<fcl::CollisionGeometryd>> hulls_;  // of the robot's bodies
-  std::vector<std::vector<Kinematics::Dependence>> carriers_;    // of each pair
+  std::vector<std::shared_ptr<fcl::CollisionGeometryd>> hulls_;  // hulls of the robot's bodies
+  // For each pair: the motions that carry its bodies.
+  std::vector<std::vector<Kinematics::Dependence>> carriers_;
   HullDistance distance_;
   double rounding_, influence_;
   long queries_ = 0;

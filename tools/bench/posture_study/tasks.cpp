@@ -1,6 +1,9 @@
-// 1. The seed picks one of four families. 2. The robot stands on both feet. 3. A fridge, a table or shelves
-// of random size hold things, none within 9 cm of a place to be reached beside them; or a block stands before
-// the legs. 4. One hand is to reach the place.
+// Makes a random task:
+// 1. The seed picks one of four families.
+// 2. The robot stands on both feet.
+// 3. A fridge, a table or shelves of random size contain things, none of them within 9 cm of the place to be
+//    reached. Or a block stands in front of the legs.
+// 4. One hand must reach the place.
 #include "tools/bench/posture_study/tasks.h"
 
 #include <fcl/geometry/shape/box.h>
@@ -43,7 +46,7 @@ class Maker {
     return low + (high - low) * static_cast<double>(random_() >> 11) * 0x1p-53;
   }
   bool flip() { return uniform(0, 1) < 0.5; }
-  double side() const { return right_ ? -1 : 1; }  // of the hand that reaches
+  double side() const { return right_ ? -1 : 1; }  // side of the hand that reaches
 
   template <class Shape>
   void add(const std::string& name, Shape shape, const Vector3d& centre, double yaw = 0) {
@@ -57,7 +60,7 @@ class Maker {
   void addBox(const std::string& name, const Vector3d& low, const Vector3d& high) {
     add(name, fcl::Boxd(high - low), (low + high) / 2);
   }
-  // Something to stand on a board: bottle, box or ball.
+  // Adds an object that stands on a board: a bottle, box or ball.
   void addThing(const std::string& name, double x, double y, double floor) {
     const double size = uniform(0.025, 0.05), height = uniform(0.1, 0.28);
     const double kind = uniform(0, 3);
@@ -66,7 +69,7 @@ class Maker {
       add(name, fcl::Boxd(2 * size, 2 * size, height), {x, y, floor + height / 2}, uniform(0, 3));
     if (kind >= 2) add(name, fcl::Sphered(size), {x, y, floor + size});
   }
-  // A few of them around a place that is to be reached, none nearer than 9 cm.
+  // Adds some objects around a place that is to be reached, none nearer to it than 9 cm.
   void clutter(int count, const Vector3d& target, const Vector3d& low, const Vector3d& high) {
     for (int i = 0; i < count; ++i) {
       double x, y;
@@ -98,7 +101,7 @@ class Maker {
     task.stabilityMargin = 0.02;
   }
 
-  // The hand around something upright, or anyhow at a place.
+  // Lets the hand grasp something upright, or reach a place in any orientation.
   void reach(const Vector3d& target, bool upright) {
     PostureTask::Place hand{right_ ? "RARM_LINK5" : "LARM_LINK5", {}};
     hand.placement.name = "hand";

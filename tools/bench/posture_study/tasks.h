@@ -1,5 +1,5 @@
-// Randomised tasks for the HRP-2-style robot: reaching into a fridge, over and under
-// tables, into shelves, between the legs.
+// Random tasks for the HRP-2-style robot: reaching into a fridge, over and under tables, into shelves, and
+// between the legs.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@ struct RandomTask {
   std::vector<Obstacle> obstacles;  ///< boxes, cylinders and spheres
 };
 
-/// The same for the same seed on every machine. Nothing says that a task has a solution.
+/// The task of a seed, the same on every machine. A task need not have a solution.
 RandomTask randomTask(std::uint64_t seed);
 
 }  // namespace fcl_stpbv::tools

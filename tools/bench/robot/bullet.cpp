@@ -1,5 +1,6 @@
-// Bullet's collision world: hulls without margins, pairs filtered before the narrowphase, which keeps
-// manifolds from one configuration to the next. Bullet is optional: without it this file says so.
+// Bullet's collision world: hulls without margins. Pairs are filtered before the narrowphase, which keeps
+// manifolds from one configuration to the next. Bullet is optional; without it, this file reports that it is
+// missing.
 #include <algorithm>
 
 #include "fcl_stpbv/adapter/stp_bv_geometry.h"
@@ -49,7 +50,7 @@ class Bullet : public Peer, private btOverlapFilterCallback {
     for (const auto& object : objects_) world_.removeCollisionObject(object.get());
   }
 
-  // The world looks at all pairs at once: it has no first hit.
+  // The world checks all pairs at once, so it cannot stop at a first hit.
   long hits(const Eigen::Ref<const Eigen::VectorXd>& q, bool first) override {
     robot_.kinematics->forwardPoses(q, state_);
     for (std::size_t i = 0; i < objects_.size(); ++i) {
@@ -92,7 +93,7 @@ class Bullet : public Peer, private btOverlapFilterCallback {
 
 }  // namespace
 
-// Hulls alone: a robot with other bodies is not compared.
+// Supports only hulls: a robot with other bodies is not compared.
 std::unique_ptr<Peer> bulletPeer(const PosedModel& robot) {
   for (const Body& body : robot.geometry->bodies)
     if (!asStpBv(body.geometry.get())) return nullptr;

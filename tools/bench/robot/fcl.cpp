@@ -1,5 +1,5 @@
-// FCL as its broadphase is meant to be used: objects registered once, moved and updated at each
-// configuration, a callback that looks pairs up in a table.
+// FCL with its broadphase used as intended: objects are registered once, then moved and updated at each
+// configuration; a callback looks pairs up in a table.
 #include <fcl/broadphase/broadphase_dynamic_AABB_tree.h>
 #include <fcl/narrowphase/collision.h>
 #include <fcl/narrowphase/distance.h>

@@ -1,4 +1,4 @@
-// Another library's way to a robot's verdict, as a good user of it would write it.
+// Another library's method for a robot's verdict, written as an experienced user would write it.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,7 +11,7 @@
 
 namespace fcl_stpbv::benchmark {
 
-/// A robot and the pairs that are asked about.
+/// A robot and the pairs to check.
 struct PosedModel {
   std::shared_ptr<const RobotModel> model;
   std::shared_ptr<const RobotGeometry> geometry;
@@ -23,19 +23,20 @@ class Peer {
  public:
   explicit Peer(std::string itsName) : name(std::move(itsName)) {}
   virtual ~Peer() = default;
-  /// Places the links, and counts the pairs whose hulls meet: polyhedra, without the margins r. Stops at the
-  /// first if asked to.
+  /// Places the links, and counts the pairs whose hulls meet (polyhedra, without the margins r). With
+  /// `first`, stops at the first one.
   virtual long hits(const Eigen::Ref<const Eigen::VectorXd>& q, bool first) = 0;
-  /// Distances of all pairs of hulls; how many it found to be 0 or less. 0 where the library has none.
+  /// Computes the distances of all pairs of hulls. @returns how many are 0 or less; 0 if the library has no
+  /// distances.
   virtual long distances(const Eigen::Ref<const Eigen::VectorXd>&) { return 0; }
 
   const std::string name;
 };
 
-/// FCL's dynamic tree of boxes, whose callback asks `fcl::collide` about the checked
-/// pairs; distances by `fcl::distance` of each.
+/// FCL's dynamic tree of boxes, whose callback calls `fcl::collide` for the checked pairs. Distances are by
+/// `fcl::distance` for each pair.
 std::unique_ptr<Peer> fclPeer(const PosedModel& robot);
-/// Bullet's collision world with its tree of boxes; null where Bullet was not found when this was built.
+/// Bullet's collision world with its tree of boxes; null if Bullet was not found at build time.
 std::unique_ptr<Peer> bulletPeer(const PosedModel& robot);
 
 }  // namespace fcl_stpbv::benchmark
