@@ -10,7 +10,7 @@ namespace {
 
 const char* const kObstacles = "obstacles";
 
-/// Whether the length is to be fitted. @throws Error naming the argument.
+/// Whether the length is to be fitted to each body. @throws Error naming the argument.
 bool isAuto(const BodyOptions::Length& length, const char* name) {
   const auto* word = std::get_if<std::string>(&length);
   if (word && *word != "auto")

@@ -13,14 +13,14 @@
 
 namespace fcl_stpbv {
 
-/// Of the robot, and of what stands around it.
+/// The options for the volumes of a robot and of its obstacles.
 struct BodyOptions {
   using Length = std::variant<double, std::string>;  ///< m, or "auto"
   using OfLinks = std::map<std::string, std::vector<double>>;
-  using Names = std::variant<std::string, std::vector<std::string>>;  ///< one, or several
+  using Names = std::variant<std::string, std::vector<std::string>>;  ///< one name, or several
 
   Length r;
-  std::optional<Length> R;  ///< none: fitted where r is, else that of GeometryOptions
+  std::optional<Length> R;  ///< no value: fitted if r is, else the R of GeometryOptions
   OfLinks links = {};       ///< r, R and, if given, the over-cover's budget of single links (m)
   Names flat = std::vector<std::string>{};  ///< links whose meshes stay convex polyhedra, and "obstacles"
 

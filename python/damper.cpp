@@ -1,4 +1,4 @@
-// Collision rows for a controller in Python, and what was found at each row.
+// Collision rows for a controller in Python, and the answers of the rows.
 #include <map>
 #include <mutex>
 #include <optional>

@@ -26,7 +26,7 @@ void requireFinite(const Numbers& numbers, const char* name) {
   if (!numbers.allFinite()) throw Error(std::string(name) + ": holds a number that is not finite");
 }
 
-/// @throws Error naming the argument unless it has that many numbers, all finite.
+/// @throws Error naming the argument, unless it has exactly `count` numbers, all finite.
 inline void requireNumbers(const Eigen::VectorXd& numbers, Eigen::Index count, const char* name) {
   if (numbers.size() != count)
     throw Error(std::string(name) + ": got " + std::to_string(numbers.size()) + " numbers, expected " +
@@ -63,7 +63,7 @@ struct type_caster<fcl_stpbv::Floats<Matrix>> {
                        ", expected an array of floats or a list of numbers");
     }
     if constexpr (Matrix::RowsAtCompileTime == Eigen::Dynamic && Matrix::ColsAtCompileTime > 1)
-      if (!given && numbers.size() == 0) {  // an empty list: the length of its rows is not known
+      if (!given && numbers.size() == 0) {  // an empty list, whose rows have no known length
         value.value.resize(0, Matrix::ColsAtCompileTime);
         return true;
       }

@@ -12,7 +12,7 @@ class Interrupt {
  public:
   /// @throws pybind11::error_already_set after Ctrl-C.
   void operator()() {
-    // Taking the lock may take 5 ms where other threads of Python run.
+    // Taking the lock may take 5 ms if other threads of Python run.
     if (Clock::now() - last_ < std::chrono::milliseconds(100)) return;
     const pybind11::gil_scoped_acquire lock;
     if (PyErr_CheckSignals() != 0) throw pybind11::error_already_set();

@@ -11,7 +11,7 @@ namespace fcl_stpbv {
 
 /// Loads a robot's files one after the other, and collects their warnings.
 struct Loading {
-  std::vector<std::string> warnings;  ///< whole sentences, of all that was loaded
+  std::vector<std::string> warnings;  ///< whole sentences about everything that was loaded
 
   RobotModel robot(const Path& urdf);
   RobotModel obstacles(const Path& urdf);
@@ -21,7 +21,7 @@ struct Loading {
   /// Warns if covers of primitives have a larger R than `options` state.
   void warnOfR(const RobotModel& robot, const RobotGeometry& covered, const GeometryOptions& options);
 
-  /// Warns of an SRDF that leaves out no pair.
+  /// Warns if an SRDF leaves out no pair.
   void warnOfPairs(const RobotModel& robot, const RobotGeometry& geometry, const Srdf& srdf);
 };
 
@@ -29,8 +29,8 @@ struct Loading {
 std::vector<std::string> warningsOfModel(const RobotModel& robot, const RobotGeometry& geometry,
                                          const std::vector<std::string>& known);
 
-/// Each as a UserWarning of the Python code that called. @throws pybind11::error_already_set where it has
-/// made warnings errors.
+/// Raises each warning as a UserWarning of the calling Python code. @throws pybind11::error_already_set if
+/// that code has turned warnings into errors.
 void warn(const std::vector<std::string>& warnings);
 
 /// A text that may contain file names, which need not be UTF-8. It is decoded in the same way as Python

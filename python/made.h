@@ -6,7 +6,7 @@
 
 namespace fcl_stpbv {
 
-/// What a class of the module specialises pybind11's caster with, before its first use.
+/// A class of the module specialises pybind11's caster by this one, before its first use.
 template <class Type, bool mayBeNone = false>
 struct MadeCaster : pybind11::detail::type_caster_base<Type> {
   bool load(pybind11::handle source, bool convert) {

@@ -10,7 +10,8 @@ namespace {
 
 namespace py = pybind11;
 
-// Messages may name files that are not UTF-8. pybind11's own translation would leave the message out.
+// Translates Error. Messages may name files that are not UTF-8; pybind11's own translation would drop the
+// message.
 void addError(py::module_& module) {
   static const py::handle error =
       py::exception<fcl_stpbv::Error>(module, "Error", PyExc_RuntimeError).release();
@@ -23,7 +24,8 @@ void addError(py::module_& module) {
   });
 }
 
-// Below protocol 2 Python's pickle makes an object without pybind11, which ends the interpreter.
+// Refuses protocols below 2: with them Python's pickle makes an object without pybind11, which ends the
+// interpreter.
 void addPickling(py::module_& module) {
   const py::object reduce = py::module_::import("builtins").attr("object").attr("__reduce_ex__");
   const py::type ours = py::type::of(module.attr("StpBv"));
@@ -34,10 +36,10 @@ void addPickling(py::module_& module) {
           py::name("__reduce_ex__"), py::is_method(member));
 }
 
-ternaryfunc callOfClass;  // pybind11's own, shared by all modules that are made with it
+ternaryfunc callOfClass;  // the function of pybind11, shared by all modules made with it
 
-// The base of all classes cannot be made: pybind11 would throw through Python's C code, which ends the
-// interpreter. object.__reduce__() calls it, too.
+// Refuses to make an object of the base class of all classes, because pybind11 would throw through Python's C
+// code, which ends the interpreter. object.__reduce__() calls it too.
 PyObject* callOfMade(PyObject* type, PyObject* arguments, PyObject* names) {
   if (!py::detail::all_type_info(reinterpret_cast<PyTypeObject*>(type)).empty())
     return callOfClass(type, arguments, names);

@@ -36,7 +36,7 @@ MotionCheck& PythonRobot::motions() {
   return *motions_;
 }
 
-// A single motion asks for some 200,000 distances at most, so Ctrl-C may wait for its end.
+// A single motion needs at most about 200,000 distances, so Ctrl-C may wait for its end.
 bool PythonRobot::isMotionFree(const Given& givenQ0, const Given& givenQ1, double margin) {
   const Eigen::VectorXd &q0 = checked(givenQ0, "q0", kinematics_->size()),
                         &q1 = checked(givenQ1, "q1", kinematics_->size());
@@ -87,7 +87,7 @@ std::tuple<Eigen::VectorXd, Eigen::VectorXd, bool> PythonRobot::closestApproach(
   Eigen::VectorXd d = Eigen::VectorXd::Constant(rows(), kNone), time = Eigen::VectorXd::Zero(rows());
   for (std::size_t pair = 0; pair < best.size(); ++pair) {
     const int row = rowOf(check.pairs()[pair]);
-    // What could not be measured is not far; distances() says so too.
+    // A distance that could not be measured gets the lowest value, not a large one, as in distances().
     d[row] = best[pair].distance < kNone ? best[pair].distance : std::numeric_limits<double>::lowest();
     time[row] = best[pair].time;
   }

@@ -25,8 +25,8 @@ void addRobot(pybind11::module_& module);
 void addShards(pybind11::module_& module);
 void addPostures(pybind11::module_& module);
 
-/// A file that may be left out. @throws Error naming the argument where its name is empty: it was not left
-/// out.
+/// A file that may be omitted. @throws Error naming the argument if its name is empty, because then it was
+/// not omitted.
 inline const std::optional<Path>& named(const std::optional<Path>& file, const char* argument) {
   if (file && file->empty())
     throw Error(std::string(argument) + ": the file's name is empty; None leaves it out");
@@ -40,11 +40,11 @@ inline void requireCount(long count, long least, const char* name) {
                 " or more");
 }
 
-/// Folders that hold packages: one in Python, or a list of them.
+/// Folders that contain packages: a single one in Python, or a list of them.
 struct Folders {
   std::vector<std::string> names;
 
-  /// The names. @throws Error for one that is no folder.
+  /// The names. @throws Error for a name that is no folder.
   const std::vector<std::string>& existing() const {
     std::error_code ignored;
     for (const std::string& name : names)

@@ -50,7 +50,8 @@ class PythonPostureSearch {
   }
   const std::vector<std::string>& warnings() const { return loading_.warnings; }
 
-  /// A problem of its own for each start: what others left in its caches would change the last bits.
+  /// Solves from one start with a problem of its own, because other starts would leave caches that change the
+  /// last bits.
   Posture solve(const std::string& task, const std::string& path, int start, std::uint64_t seed,
                 const std::optional<Floats<Eigen::VectorXd>>& from) const {
     PostureSetup setup = setUp(taskOf(task, path), scene_);
@@ -83,12 +84,12 @@ class PythonPostureSearch {
     return task;
   }
 
-  // What is no number is no answer, and JSON has no word for it.
+  // Refuses postures with values that are not finite. They are no answer, and JSON has no word for them.
   static void requireFinite(const Posture& posture, const std::string& where) {
     double sum = posture.cost;
     for (const auto* list : {&posture.violations, &posture.conflict})
       for (const Violation& violation : *list)
-        sum += violation.amount / 1e3;  // a few may be the largest number
+        sum += violation.amount / 1e3;  // divided, because a few amounts may be the largest double
     if (!posture.q.allFinite() || !std::isfinite(sum))
       throw Error(where + ": leads to numbers that are not finite; start nearer to the origin");
   }

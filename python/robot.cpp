@@ -1,4 +1,4 @@
-// The class Robot as Python sees it.
+// The Python class Robot.
 #include "robot.h"
 
 #include <limits>

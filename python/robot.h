@@ -26,7 +26,7 @@ namespace fcl_stpbv {
 
 namespace py = pybind11;
 
-/// @throws Error naming the argument, for what the rows' second derivatives take for no number.
+/// @throws Error naming the argument, for numbers that are too large for the rows' second derivatives.
 inline void requireUsable(const Eigen::VectorXd& numbers, const char* name) {
   if (!(numbers.array().abs() <= 1e100).all())
     throw Error(std::string(name) + ": holds a number above 1e100");
@@ -40,7 +40,7 @@ struct PythonMotionBracket {
   std::optional<int> row;
 };
 
-/// A robot, its volumes and the pairs that its SRDF leaves to be checked.
+/// A robot, its volumes, and the pairs that must be checked according to its SRDF.
 class PythonRobot {
  public:
   using Given = Floats<Eigen::VectorXd>;
@@ -71,7 +71,7 @@ class PythonRobot {
     warn(warnings_);
   }
 
-  /// The same robot, refined for the needs, and the indices of needs that no bodies meet.
+  /// The same robot with bodies refined for the needs, and the indices of needs that no bodies meet.
   std::pair<std::unique_ptr<PythonRobot>, std::vector<std::size_t>> modelFor(
       const std::vector<PythonScene::Need>& needs, const std::vector<double>& budgets, int threads) const {
     std::vector<std::size_t> unmet;
@@ -187,12 +187,12 @@ class PythonRobot {
     return d;
   }
 
-  // Of controllers (damper.cpp).
+  // Used by controllers (damper.cpp).
   const CollisionConstraints& constraints() const { return *constraints_; }
   std::vector<RowAnswer> answers(const Given& givenQ, const std::optional<Given>& givenQd);
   Eigen::VectorXd gradientRateBounds(const Given& givenQ, const Given& givenQd);
 
-  // Of motions (motion.cpp).
+  // For motions (motion.cpp).
   bool isMotionFree(const Given& givenQ0, const Given& givenQ1, double margin);
   std::optional<Eigen::Index> firstUnprovenMotion(GivenRows given, double margin);
   PythonMotionBracket firstContact(const Given& givenQ0, const Given& givenQ1, double margin,
@@ -243,13 +243,13 @@ class PythonRobot {
       checker_ = std::make_unique<CollisionChecker>(kinematics_, geometry, pairs, scene_->obstacles);
   }
 
-  /// @throws Error naming the argument, before the work of loading.
+  /// Called before loading starts. @throws Error naming the argument.
   static void requireLength(double length, const char* name) {
     if (!(length > 0))
       throw Error(std::string(name) + ": got " + std::string(py::str(py::float_(length))) +
                   ", expected a length above 0 (m)");
   }
-  /// @throws Error naming the argument, likewise.
+  /// Called before loading starts. @throws Error naming the argument.
   static void requireBend(double influence, const std::optional<double>& exactUpTo) {
     if (exactUpTo && !(*exactUpTo >= 0 && *exactUpTo < influence))
       throw Error("exact_up_to: got " + std::string(py::str(py::float_(*exactUpTo))) +
@@ -263,7 +263,7 @@ class PythonRobot {
 
   const Rows& checkedRows(GivenRows& given) const {
     Rows& q = given.value;
-    if (q.rows() == 0) q.resize(0, kinematics_->size());  // an empty list does not say how long its rows are
+    if (q.rows() == 0) q.resize(0, kinematics_->size());  // an empty list, whose rows have no known length
     if (q.cols() != kinematics_->size())
       throw Error("q: got rows of " + std::to_string(q.cols()) + " numbers, expected (N, " +
                   std::to_string(kinematics_->size()) + "), one row a configuration");
@@ -271,7 +271,7 @@ class PythonRobot {
     return q;
   }
   static Sequence sequenceOf(bool path) { return path ? Sequence::path : Sequence::independent; }
-  /// @throws Error, as what is not checked is not clear.
+  /// @throws Error if no pair is checked, because then nothing is proven clear.
   void requireCheckedPairs() const {
     if (!checker_) throw Error("no pair of bodies is checked, so that nothing can be said about collisions");
   }
@@ -280,9 +280,9 @@ class PythonRobot {
     checker_->setMargin(margin);
     return *checker_;
   }
-  /// Made when it is first asked for. @throws Error without checked pairs.
+  /// The motion check. It is made at the first call. @throws Error without checked pairs.
   MotionCheck& motions();
-  /// Whole bodies that hand over to their parts have rows beside those of the pairs.
+  /// The row of a pair. Whole bodies with a hand-over to their parts have additional rows.
   int rowOf(const CheckedPair& wanted) const {
     const auto isWanted = [&](const CheckedPair& pair) {
       return pair.body == wanted.body && pair.other == wanted.other && pair.obstacle == wanted.obstacle;
@@ -290,12 +290,12 @@ class PythonRobot {
     const std::vector<CheckedPair>& pairs = constraints_->pairs();
     return static_cast<int>(std::find_if(pairs.begin(), pairs.end(), isWanted) - pairs.begin());
   }
-  /// `work(start, count)` on all rows without Python's lock, a slice at a time: between two of them Ctrl-C
-  /// ends it. @throws py::error_already_set then.
+  /// Calls `work(start, count)` on slices of all rows, without Python's lock. Ctrl-C can end it between two
+  /// slices. @throws py::error_already_set after Ctrl-C.
   template <class Work>
   static void inSlices(Eigen::Index rows, int threads, const Work& work) {
-    // Slices are whole pieces of a batch, which leaves each answer as it is. They grow as long as they take
-    // no time.
+    // Slices are whole pieces of a batch, so they do not change the answers. Their size grows as long as a
+    // slice takes little time.
     using Clock = std::chrono::steady_clock;
     Eigen::Index slice = kBatchPiece * static_cast<Eigen::Index>(threads);
     const py::gil_scoped_release others;
@@ -308,7 +308,7 @@ class PythonRobot {
       if (Clock::now() - begin < std::chrono::milliseconds(100)) slice *= 2;
     }
   }
-  /// The entries of each J in their places among zeros. @return the end of what is written
+  /// Writes the entries of each J into a dense matrix of zeros. @return the end of the written part
   double* spread(const Rows& values, Eigen::Index columns, double* dense) const {
     const Eigen::Index size = rows() * columns;
     std::fill(dense, dense + values.rows() * size, 0.0);
@@ -339,7 +339,7 @@ struct pybind11::detail::type_caster<fcl_stpbv::PythonRobot> : fcl_stpbv::MadeCa
 
 namespace fcl_stpbv {
 
-/// Rows for controllers, and what was found for each.
+/// Adds rows for controllers, and the classes of the rows' answers.
 void addDampers(py::module_& module, py::class_<PythonRobot>& robotClass);
 /// Adds the methods about motions, and the classes of their results.
 void addMotions(py::module_& module, py::class_<PythonRobot>& robotClass);

@@ -36,7 +36,7 @@ std::shared_ptr<const RobotGeometry> PythonScene::load(const std::string& base,
   loading.warnOfR(*robot, bodies, options);
   if (around) {
     loading.warnOfR(*around, things, aroundOptions);
-    obstacles = obstaclesOf(around, things);  // as they are covered
+    obstacles = obstaclesOf(around, things);  // with their covers
   }
   return std::make_shared<const RobotGeometry>(std::move(bodies));
 }
@@ -111,7 +111,7 @@ std::shared_ptr<const RobotGeometry> PythonScene::modelFor(const std::vector<Nee
   const SceneModel model = modelForScene(kinematics, levels, obstacles, needs, how);
   unmet.clear();
   for (std::size_t i = 0; i < needs.size() && unmet.size() < model.unmet.size(); ++i) {
-    const SceneNeed& next = model.unmet[unmet.size()];  // in the order of the needs
+    const SceneNeed& next = model.unmet[unmet.size()];  // the unmet needs are in the order of the needs
     const bool same = !(needs[i].pair < next.pair) && !(next.pair < needs[i].pair);
     if (same && needs[i].q == next.q && needs[i].clearance == next.clearance) unmet.push_back(i);
   }

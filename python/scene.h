@@ -27,15 +27,15 @@ struct PythonScene {
   bool baseMoves = false;
   Loading loading;
 
-  /// Loads all and covers primitives. @return the robot's bodies @throws Error naming the file.
+  /// Loads all files and covers primitives. @return the robot's bodies @throws Error naming the file.
   std::shared_ptr<const RobotGeometry> load(const std::string& base,
                                             const std::optional<Path>& obstaclesUrdf);
 
-  /// The pairs to be checked: those that the SRDF leaves, and with the obstacles.
+  /// The pairs to check: those that the SRDF does not leave out, and the pairs with obstacles.
   std::vector<CheckedPair> pairs(const RobotGeometry& geometry) const;
 
-  /// The bodies as fine as the needs ask for (scene_model.h). `unmet` gets the places of those that no bodies
-  /// meet. @throws Error naming the argument.
+  /// The bodies, as fine as the needs require (scene_model.h). `unmet` receives the indices of needs that no
+  /// bodies meet. @throws Error naming the argument.
   std::shared_ptr<const RobotGeometry> modelFor(const std::vector<Need>& needs,
                                                 const std::vector<double>& budgets, int threads,
                                                 std::vector<std::size_t>& unmet) const;

@@ -34,7 +34,8 @@ using namespace detail;
 using Boxes = std::vector<std::pair<Eigen::VectorXd, Eigen::VectorXd>>;  ///< lower and upper limits
 using GivenBoxes = std::vector<std::pair<Floats<Eigen::VectorXd>, Floats<Eigen::VectorXd>>>;
 
-// Boxes of coordinates from Python. A box without room, or of limits that are no numbers, is refused.
+// Boxes of coordinates from Python. A box whose lower limit is above the upper one, or whose limits are not
+// numbers, is refused.
 std::vector<JointBox> boxesOf(const GivenBoxes& given) {
   std::vector<JointBox> boxes;
   for (const auto& [lower, upper] : given) {
@@ -48,7 +49,7 @@ std::vector<JointBox> boxesOf(const GivenBoxes& given) {
   return boxes;
 }
 
-/// A robot and the pairs of its links that joints move against each other.
+/// A robot and the pairs of its links that joints move relative to each other.
 class PythonPairSearch {
  public:
   PythonPairSearch(const Path& urdf, const std::optional<Path>& obstacles, const BodyOptions::Length& r,
@@ -110,12 +111,13 @@ class PythonPairSearch {
       if (static_cast<std::size_t>(box.lower.size()) != size)
         throw Error("boxes: a box of this pair has " + std::to_string(size) + " coordinates, got one of " +
                     std::to_string(box.lower.size()));
-    constexpr long kAtOnce = 500;  // boxes, some 10 ms; a box's result depends on that box alone
+    // Boxes, which take about 10 ms; the result of a box depends only on that box.
+    constexpr long kAtOnce = 500;
     Interrupt interrupt;
     for (PairProof proof{std::move(open), std::nullopt, 0};; interrupt()) {
       const long before = proof.boxes, asked = std::min(kAtOnce, most - before);
       proof = provePair(scene_, links, std::move(proof.open), asked);
-      // None is left, the limit is reached, or none could be cut.
+      // Ends if no box is left, the limit is reached, or no box could be cut.
       const bool ended = proof.open.empty() || before + asked >= most || proof.boxes < asked;
       proof.boxes += before;
       if (ended) return proof;
@@ -179,7 +181,7 @@ class PythonPairSearch {
     entry.reason = reason;
     return entry;
   }
-  // Adjacent pairs, and rigid ones: those are decided in one configuration.
+  // Adjacent and rigid pairs, which are decided in one configuration.
   std::vector<PairEntry> joined() const {
     const RobotModel& robot = scene_.kinematics->robot();
     const Adjacency adjacency(robot, *scene_.geometry);
@@ -204,7 +206,7 @@ class PythonPairSearch {
       throw Error("pair: got " + std::to_string(pair) + ", the robot has " + std::to_string(pairs_.size()));
     return pairs_[pair];
   }
-  // The random numbers of one piece of the work.
+  // The random numbers for one piece of the work.
   static std::mt19937_64 numbered(std::uint64_t seed, std::uint64_t piece) {
     std::seed_seq mixed{static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32),
                         static_cast<std::uint32_t>(piece), static_cast<std::uint32_t>(piece >> 32)};

@@ -28,7 +28,7 @@ namespace py = pybind11;
 namespace fcl_stpbv {
 namespace {
 
-/// The answer and where the bodies' frames were, which the gradients are about.
+/// The answer, and the origins of the bodies' frames. The gradients are about these origins.
 struct PlacedDistance : Distance {
   PlacedDistance(const Distance& found, const Eigen::Vector3d& origin1, const Eigen::Vector3d& origin2)
       : Distance(found), origins{origin1, origin2} {}
@@ -71,10 +71,11 @@ struct pybind11::detail::type_caster<fcl_stpbv::RadiiAdvice> : fcl_stpbv::MadeCa
 namespace fcl_stpbv {
 namespace {
 
-/// pybind11 has no holder for pointers to const; no bound method changes a volume.
+/// A pointer to a volume that is not const, because pybind11 has no holder for pointers to const. No bound
+/// method changes a volume.
 std::shared_ptr<StpBv> held(const StpBv::Ptr& volume) { return std::const_pointer_cast<StpBv>(volume); }
 
-// A pose that is not finite is answered as invalid.
+// Makes a pose. A pose that is not finite is accepted, and gives the answer `invalid`.
 Eigen::Isometry3d toPose(const Floats<Eigen::Matrix4d>& given, const char* name) {
   const Eigen::Matrix4d& matrix = given.value;
   if (matrix.allFinite() && matrix.row(3) != Eigen::RowVector4d(0, 0, 0, 1))

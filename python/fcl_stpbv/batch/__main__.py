@@ -16,7 +16,7 @@ wrong, or Dask is missing or cannot start its processes; 130 interrupted. A run 
 
 
 def number(kind, least, most, unit="", word=None):
-    """Returns a parser for argparse that accepts finite numbers from `least` to `most`, both included, and the word if there is one."""
+    """Returns a parser for argparse that accepts finite numbers from `least` to `most`, both included, and the word if one is given."""
     def read(text):
         if word and text == word:
             return word
@@ -108,7 +108,7 @@ def compute(arguments, schedule, show):
 
 
 def unwritten(error, more=""):
-    os.dup2(os.open(os.devnull, os.O_WRONLY), 1)  # where what is left of it goes
+    os.dup2(os.open(os.devnull, os.O_WRONLY), 1)  # receives the output that is still buffered
     return fcl_stpbv.Error(f"standard output: cannot be written: {error.strerror}{more}")
 
 
@@ -124,7 +124,7 @@ def asked():
         try:
             return described().parse_args()
         finally:
-            sys.stdout.flush()  # of --help and --version
+            sys.stdout.flush()  # for the output of --help and --version
     except OSError as error:
         raise unwritten(error) from None
 
@@ -150,7 +150,7 @@ def run(arguments):
     places.check(arguments)
     try:
         kind = loaded("grid" if grid else arguments.kind, arguments)
-    except UnicodeDecodeError:  # of links and joints, which Python takes for UTF-8
+    except UnicodeDecodeError:  # UnicodeDecodeError: names of links and joints, which Python reads as UTF-8
         raise fcl_stpbv.Error(f"{arguments.robot}: a name in it or in its obstacles is not UTF-8; save the files in UTF-8") from None
     header = {"batch": kind.name, "version": fcl_stpbv.__version__, "bundle": digest_of(kind.files), **kind.options}
     jobs = results.merge(arguments.merge, header, kind)

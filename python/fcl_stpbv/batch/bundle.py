@@ -46,7 +46,7 @@ def mesh_parts(path):
     parts = {path.name: path}
     if path.suffix.lower() != ".gltf" or not path.is_file():
         return parts
-    folders = [os.path.realpath(path.parent), os.path.dirname(os.path.realpath(path))]  # of a link also what is beside its target
+    folders = [os.path.realpath(path.parent), os.path.dirname(os.path.realpath(path))]  # for a link, also files beside its target
     for uri in buffer_uris(path):
         name = os.path.normpath(uri.replace("\\", "/"))
         for part in (path.parent / name, path.parent / urllib.parse.unquote(name, errors="surrogateescape")):

@@ -63,12 +63,12 @@ def run_here(schedule, show):
         group, key, given = schedule.ready.popleft()
         try:
             result = outcome(kind, kind.context, kind.options, key, content_of(given))
-        except OSError as error:  # the folder for temporary files is full, which another run may find otherwise
+        except OSError as error:  # the folder for temporary files is full, which may differ in another run
             raise Stopped(f"{list(key)} has no result: {type(error).__name__}: {error}") from None
         schedule.finish(group, key, *result)
 
 
-contexts = {}  # of this worker, by what they were made from
+contexts = {}  # contexts of this worker, by what they were made from
 
 
 def work(name, options, files, digest, version, key, packed):
@@ -76,13 +76,14 @@ def work(name, options, files, digest, version, key, packed):
     if version != fcl_stpbv.__version__:
         raise RuntimeError(f"a worker has fcl_stpbv {fcl_stpbv.__version__} and not {version}; install the same everywhere")
     kind, known = KINDS[name], (name, digest, json.dumps(options, sort_keys=True))
-    context = contexts.get(known)  # at once: a worker may have several threads
+    context = contexts.get(known)  # one lookup only, because a worker may have several threads
     if context is None:
-        # What loading warns of was told where the batch began; adding a filter once more changes nothing.
+        # The warnings of loading were shown where the batch began. Adding the same filter again changes
+        # nothing.
         warnings.filterwarnings("ignore", category=UserWarning, module=r"fcl_stpbv\.batch\.")
         with Unpacked(pickle.loads(files)) as folder:
             context = kind.open(folder, options)
-        contexts.clear()  # one robot at a time
+        contexts.clear()  # only one robot at a time
         contexts[known] = context
     return outcome(kind, context, options, key, pickle.loads(packed))
 
@@ -104,12 +105,13 @@ def local_cluster(workers):
     an exception after a while."""
     import distributed
 
-    # Without a dashboard the scheduler would still listen on Dask's usual port, and warn where that is taken.
+    # Without these options the scheduler would listen on Dask's usual port even without a dashboard, and warn
+    # if that port is taken.
     local = {"dashboard": False, "dashboard_address": "127.0.0.1:0"}
     try:
         return distributed.LocalCluster(workers, threads_per_worker=1, dashboard_address=None, scheduler_kwargs=local, silence_logs="CRITICAL",
-                                        extensions={},  # shuffling, which none needs: its closing twice ends in a traceback
-                                        death_timeout="3m")  # else Dask waits for ever for a process that was killed while it started
+                                        extensions={},  # shuffling, which no batch needs; closing it twice ends in a traceback
+                                        death_timeout="3m")  # otherwise Dask waits forever for a process that was killed while it started
     except Exception as error:
         while error.__context__:
             error = error.__context__
@@ -131,9 +133,10 @@ def connected(scheduler, workers):
         raise fcl_stpbv.Error("more than one process needs Dask: install Debian's python3-distributed, or give --jobs 1, "
                               "or share out with --shard") from None
     quiet = {"distributed.worker.daemon": False, "distributed.logging.distributed": "critical", "distributed.admin.tick.limit": "1h",
-             "distributed.nanny.pre-spawn-environ.DASK_LOGGING__DISTRIBUTED": "critical"}  # for processes of ours, which log as they start
-    logging.disable(logging.CRITICAL)  # a connection that breaks ends in one message, ours, and not in Dask's tracebacks
-    # A call that is under way when the scheduler goes ends in either kind of cancellation: the second is no Exception.
+             "distributed.nanny.pre-spawn-environ.DASK_LOGGING__DISTRIBUTED": "critical"}  # for processes that this program starts, which log while they start
+    logging.disable(logging.CRITICAL)  # a broken connection ends in one message of this program, not in Dask's tracebacks
+    # If the scheduler disappears during a call, the call ends in either kind of cancellation; the second is
+    # not an Exception.
     gone = (distributed.comm.CommClosedError, concurrent.futures.CancelledError, asyncio.CancelledError)
     with dask.config.set(quiet), contextlib.ExitStack() as stack:
         try:
@@ -142,7 +145,7 @@ def connected(scheduler, workers):
             else:
                 asyncio.run(greet(scheduler))
             client = stack.enter_context(distributed.Client(scheduler, timeout=PATIENCE, set_as_default=False))
-        except (OSError, ValueError, TypeError, TimeoutError) as error:  # a type: tls:// without certificates
+        except (OSError, ValueError, TypeError, TimeoutError) as error:  # TypeError: tls:// without certificates
             raise fcl_stpbv.Error(f"--scheduler {scheduler}: no Dask scheduler answers there ({error}); "
                                   "start one with dask-scheduler") from None
         try:
@@ -181,7 +184,7 @@ def run_on(client, schedule, show):
                 done.add(future)
         show(len(schedule.results.jobs), len(jobs) + len(schedule.ready))
         future = next(done)
-        if future.status in ("lost", "pending"):  # its worker died with the result, which is computed again
+        if future.status in ("lost", "pending"):  # its worker died with the result, so the result is computed again
             done.add(future)
             continue
         group, key = jobs.pop(future.key)

@@ -8,7 +8,7 @@ from fcl_stpbv.batch import bundle
 from fcl_stpbv.batch.postures import Postures
 
 MOST_CELLS = 1000000
-MOST_COLUMNS = 10000  # of a row, which is one job
+MOST_COLUMNS = 10000  # in a row, which is one job
 
 
 def refuse(where, got, expected):

@@ -79,7 +79,7 @@ class Convert:
             try:
                 volume.save(str(folder / "volume"))
             except fcl_stpbv.Error as error:
-                raise OSError(str(error)) from None  # no fault of the mesh's
+                raise OSError(str(error)) from None  # not a fault of the mesh
             content = (folder / "volume").read_bytes()
         record = {"volume": places.volume_name(path), "sha256": hashlib.sha256(content).hexdigest(), "points": len(points),
                   "vertices": len(volume.vertices), "over_cover": volume.over_cover(points)[0]}

@@ -8,7 +8,7 @@ from fcl_stpbv.batch.results import are_numbers, is_whole
 
 
 def opened(arguments):
-    """(the PairSearch of the robot and the obstacles on the command line, the files that it is made from)."""
+    """(the PairSearch for the robot and the obstacles on the command line, the files that it was made from)."""
     path = arguments.package_path
     search = fcl_stpbv.PairSearch(arguments.robot, arguments.obstacles, r=arguments.r, R=arguments.R, package_path=path, margin=arguments.margin)
     if len(set(search.pairs)) < len(search.pairs):
@@ -20,7 +20,7 @@ def opened(arguments):
 
 
 def search_in(folder, options):
-    """The same from the bundle's files."""
+    """The PairSearch made from the bundle's files."""
     scene = folder / "scene/robot.urdf"
     return fcl_stpbv.PairSearch(str(folder / "robot/robot.urdf"), str(scene) if scene.exists() else None, r=options["r"], R=options["R"],
                                 margin=options["margin"])
@@ -38,7 +38,7 @@ def counted(verdicts):
 class Prove:
     """Proofs that pairs of links never collide. A job examines some boxes of one pair. The boxes that it leaves open are distributed to twice
     as many jobs in the pair's next round."""
-    name, key = "prove", [str, str, int, int]  # the pair, the round, which job of it
+    name, key = "prove", [str, str, int, int]  # the pair, the round, the number of the job in the round
 
     def __init__(self, arguments):
         self.options = {key: getattr(arguments, key) for key in ("r", "R", "margin", "budget", "descents", "seed")}
@@ -51,7 +51,7 @@ class Prove:
         if arguments.write_srdf:
             if self.srdf:
                 bundle.require_file(self.srdf)  # a pipe could not be read again at the end
-            self.context.srdf([], self.srdf)  # what is wrong with it is told before anything is computed
+            self.context.srdf([], self.srdf)  # reports errors in the SRDF before anything is computed
 
     open = staticmethod(search_in)
 
@@ -64,7 +64,7 @@ class Prove:
                 return {"boxes": 0, "open": [], "collision": met.tolist()}, None
             boxes = search.unproven(pair).open
             if any(not math.isfinite(limit) for box in boxes for limits in box for limit in limits):
-                return {"unlimited": True}, None  # planar and floating joints
+                return {"unlimited": True}, None  # planar and floating joints have no limits
         proof = search.prove(pair, boxes, options["budget"])
         return {"boxes": proof.boxes, "open": [[lower.tolist(), upper.tolist()] for lower, upper in proof.open],
                 "collision": None if proof.collision is None else proof.collision.tolist()}, None

@@ -44,7 +44,7 @@ def check(arguments):
         if str(path) == "-":
             raise fcl_stpbv.Error(f"{where}: a run goes on from its files, and standard output is none; name a file")
         bundle.require_file(path, where)
-        if place in read or (place in merged and option != "-o"):  # a run may go on in a file that it merges
+        if place in read or (place in merged and option != "-o"):  # a run may continue in a file that it merges
             raise fcl_stpbv.Error(f"{where}: is an input, and writing would replace it; give {option} another name")
         if place in taken:
             raise fcl_stpbv.Error(f"{where}: is the same file as {taken[place]}; give one of them another name")

@@ -4,12 +4,12 @@ from fcl_stpbv.batch import bundle
 
 
 def shown(name):
-    """A name as a text, whatever bytes it has."""
+    """A name as a text, whatever bytes it contains."""
     return name.encode(errors="backslashreplace").decode()
 
 
 class Postures:
-    """Postures for tasks. A job is one start of one task; the next start is tried where those before led to nothing."""
+    """Postures for tasks. A job is one start of one task; the next start is tried if the starts before found no posture."""
     name, key = "postures", [str, int]
 
     def __init__(self, arguments):
@@ -20,7 +20,7 @@ class Postures:
         self.context = fcl_stpbv.PostureSearch(arguments.robot, arguments.srdf, arguments.obstacles, r=arguments.r, R=arguments.R,
                                                package_path=path)
         for name, text in self.tasks.items():
-            self.context.names(text, shown(name))  # a task that does not fit is told before anything is computed
+            self.context.names(text, shown(name))  # reports a task that does not fit the robot before anything is computed
         self.files = bundle.robot_files("robot", arguments.robot, path)
         if arguments.srdf:
             self.files["robot/robot.srdf"] = bundle.read(arguments.srdf)

@@ -105,13 +105,13 @@ def merge(paths, header, kind):
 
 
 class ResultFile:
-    """Open for a run: continues from what it holds, and nobody else writes to it."""
+    """A file of results, open for a run: the run continues from its contents, and nobody else writes to it."""
 
     def __init__(self, path, header, kind):
         self.path, self.header, self.jobs = path, header, {}
         try:
             self.file = None
-            while self.file is None or not os.path.samestat(os.fstat(self.file), os.stat(path)):  # a run that ends puts a new file there
+            while self.file is None or not os.path.samestat(os.fstat(self.file), os.stat(path)):  # a run that ends puts a new file in its place
                 if self.file is not None:
                     os.close(self.file)
                 self.file = os.open(path, os.O_RDWR | os.O_CREAT | os.O_APPEND, 0o666)
