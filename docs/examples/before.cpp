@@ -1,4 +1,4 @@
-// An ordinary FCL program: the closest pair between a robot's link and what stands around it.
+// An ordinary FCL program: the closest pair of a robot's link and the obstacles around it.
 #include <fcl/broadphase/broadphase_dynamic_AABB_tree.h>
 #include <fcl/broadphase/default_broadphase_callbacks.h>
 #include <fcl/geometry/shape/box.h>

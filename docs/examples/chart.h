@@ -1,4 +1,4 @@
-// Curves over time on a logarithmic scale, as an SVG for the page that an example writes.
+// Draws curves over time on a logarithmic scale, as an SVG for the page that an example writes.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 
 struct Curve {
   const char *name, *colour;
-  std::vector<double> values;  // at even times
+  std::vector<double> values;  // at equal time steps
 };
 
 /// A dashed line across; without a name there is none.

@@ -5,7 +5,7 @@ import sys
 
 
 def words(text):
-    """The text with all runs of white space alike."""
+    """The text with every run of white space replaced by one space."""
     return " ".join(text.split())
 
 
@@ -15,7 +15,7 @@ missing, seen = [], 0
 for page in [project / "README.md", *sorted((project / "docs").glob("*.md"))]:
     for block in re.findall(r"^```cpp\n(.*?)^```", page.read_text(), re.DOTALL | re.MULTILINE):
         seen += 1
-        # A block's includes and its body may stand apart in the program.
+        # A block's includes and its body may be in different places of the program.
         parts = [words(part) for part in block.split("\n\n") if part.strip()]
         if not any(all(part in program for part in parts) for program in programs):
             missing.append(f"{page.name}: {block.strip().splitlines()[0]} ...")

@@ -1,6 +1,6 @@
-// Two arms move the boxes they hold past each other at 1 kHz, kept apart by a velocity damper: once on
-// STP-BVs, once on the boxes themselves with the same margin, whose gradient jumps. Run in data/hrp2_style;
-// writes controller.csv and controller.html into the folder that is named.
+// Two arms move the boxes in their hands past each other at 1 kHz, kept apart by a velocity damper: once with
+// STP-BVs, once with the boxes themselves and the same margin, whose gradient jumps. Run it in
+// data/hrp2_style. It writes controller.csv and controller.html into the given folder.
 #include <fcl/geometry/shape/box.h>
 
 #include <cstdio>
@@ -25,10 +25,11 @@ namespace {
 constexpr double kPeriod = 1e-3;         // s
 constexpr int kDuration = 6;             // s
 constexpr double kr = 0.01, kR = 10;     // m
-const Vector3d kSize(0.12, 0.10, 0.16);  // of the boxes (m)
+const Vector3d kSize(0.12, 0.10, 0.16);  // of each box (m)
 
 struct Tick {
-  double distance, fastest;  // of the boxes with their margins (m); of the joints' accelerations (rad/s^2)
+  // Distance of the boxes with their margins (m); largest acceleration of a joint (rad/s^2).
+  double distance, fastest;
 };
 
 struct Robot {
@@ -52,7 +53,7 @@ Robot load() {
   return r;
 }
 
-/// A level box under a hand, as a volume or as it is.
+/// A level box under a hand, as a volume or as a plain box.
 Body held(const Robot& robot, const std::string& link, bool smooth) {
   Kinematics::State state = robot.kinematics->makeState();
   robot.kinematics->forward(robot.start, state);
@@ -72,11 +73,12 @@ Body held(const Robot& robot, const std::string& link, bool smooth) {
     box.geometry->computeLocalAABB();
   }
   box.centre = box.pose.translation();
-  box.radius = kSize.norm() / 2 + kr + kSize.squaredNorm() / kR;  // with a volume's bulge
+  box.radius = kSize.norm() / 2 + kr + kSize.squaredNorm() / kR;  // with the bulge of a volume
   return box;
 }
 
-/// What the arms shall do, boxes or not: inwards and back, one hand up while the other goes down.
+/// The desired motion of the arms without collisions: inwards and back, one hand up while the other goes
+/// down.
 VectorXd wanted(const Robot& robot, double t) {
   VectorXd q = robot.start;
   for (const double side : {1.0, -1.0}) {
@@ -94,7 +96,7 @@ std::vector<Tick> run(const Robot& robot, bool smooth) {
   auto geometry = std::make_shared<RobotGeometry>();
   geometry->bodies = {held(robot, "LARM_LINK5", smooth), held(robot, "RARM_LINK5", smooth)};
   CollisionConstraints constraints(robot.kinematics, geometry, {{0, 1, false}});
-  const double margin = smooth ? 0 : 2 * kr;  // that the volumes have in them
+  const double margin = smooth ? 0 : 2 * kr;  // the volumes contain this margin
   // clang-format off
 DamperOptions options;
 options.all.influence += margin;                     // defaults: d_i 5 cm, d_s 1 cm, xi 0.5 m/s
@@ -119,7 +121,7 @@ for (double t = 0; t < kDuration; t += kPeriod) {
   return ticks;
 }
 
-/// Before the work, so that a folder that is not there is told at once.
+/// Opens the file before the work, so that a missing folder is reported at once.
 std::ofstream opened(const std::filesystem::path& path) {
   std::ofstream file(path);
   if (!file) throw Error(path.string() + ": cannot be written; name a folder that is there");
@@ -133,7 +135,7 @@ bool show(const std::vector<Tick>& smooth, const std::vector<Tick>& flat, std::o
   for (std::size_t i = 0; i < smooth.size(); ++i) {
     csv << static_cast<double>(i) * kPeriod << ',' << smooth[i].distance << ',' << flat[i].distance << ','
         << smooth[i].fastest << ',' << flat[i].fastest << '\n';
-    if (i < 500) continue;  // the start from rest
+    if (i < 500) continue;  // leave out the start from rest
     peak = std::max(peak, smooth[i].fastest);
     peakFlat = std::max(peakFlat, flat[i].fastest);
     least = std::min(least, smooth[i].distance);

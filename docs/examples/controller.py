@@ -46,7 +46,7 @@ def with_boxes(urdf):
 
 
 def wanted(start, at, t):
-    """What the arms shall do, boxes or not: inwards and back, one hand up while the other goes down."""
+    """The desired motion of the arms without collisions: inwards and back, one hand up while the other goes down."""
     q = start.copy()
     for arm, side in ARMS.items():
         q[at[f"{arm}_JOINT0"]] += side * 0.15 * np.sin(2 * t)
@@ -58,7 +58,7 @@ def wanted(start, at, t):
 
 
 def run(urdf, r, R, margin):
-    """Distance of the boxes beyond their margin, and the largest joint acceleration, of each tick."""
+    """For each tick: distance of the boxes beyond their margin, and the largest joint acceleration."""
     robot = fcl_stpbv.Robot(urdf, r=r, R=R)
     damper = fcl_stpbv.VelocityDamper(robot, influence=INFLUENCE + margin, security=SECURITY + margin, damping=DAMPING, period=PERIOD)
     at = {name: i for i, name in enumerate(robot.names)}
@@ -79,7 +79,7 @@ def run(urdf, r, R, margin):
 
 def main(project, folder):
     path = pathlib.Path(folder) / "controller_py.csv"
-    if not path.parent.is_dir():  # told at once, not after the run
+    if not path.parent.is_dir():  # reported at once, not after the run
         raise NotADirectoryError(f"{folder} is no folder: FOLDER is where the table goes")
     robot = pathlib.Path(project) / "data/hrp2_style/hrp2_style.urdf"
     if not robot.is_file():

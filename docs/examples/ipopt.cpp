@@ -1,5 +1,6 @@
-// The allowed posture that is closest to a wanted one, by IPOPT with exact second derivatives: the left hand
-// lays a box onto a table. R grows from a small one: continuation (docs/optimise.md). Run in data/hrp2_style.
+// Finds the allowed posture that is closest to a desired one, by IPOPT with exact second derivatives: the
+// left hand lays a box onto a table. R starts small and grows (continuation, docs/optimise.md). Run it in
+// data/hrp2_style.
 #include <fcl/geometry/shape/box.h>
 
 #include <IpIpoptApplication.hpp>
@@ -28,7 +29,8 @@ class Closest : public Ipopt::TNLP {
     n = rows_.columns();
     m = rows_.rows();
     jacobian = rows_.nonZeros();
-    hessian = static_cast<int>(hessian_.nonZeros()) + n;  // the cost's diagonal; IPOPT adds what comes twice
+    // The cost's diagonal; IPOPT adds entries at the same place.
+    hessian = static_cast<int>(hessian_.nonZeros()) + n;
     style = C_STYLE;
     return true;
   }
@@ -97,7 +99,7 @@ class Closest : public Ipopt::TNLP {
   CollisionConstraints::SparseHessian hessian_;
 };
 
-/// The left hand's box, level at `pose`, as the only body: STP-BV of that R.
+/// The box in the left hand, level at `pose`, as the only body: an STP-BV with the given R.
 std::shared_ptr<const RobotGeometry> heldBox(int hand, const Eigen::Isometry3d& pose, double R) {
   std::vector<Eigen::Vector3d> corners;
   for (int i = 0; i < 8; ++i)

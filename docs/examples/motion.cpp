@@ -1,4 +1,4 @@
-// What docs/motion.md shows, for the robot in data/hrp2_style: run in that folder.
+// The code of docs/motion.md, for the robot in data/hrp2_style. Run it in that folder.
 #include <cstdio>
 
 #include "docs/examples/named.h"

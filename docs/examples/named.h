@@ -1,4 +1,4 @@
-// Joints and links by the names that an example gives them: with another robot it says which one is missing.
+// Finds joints and links by the names in an example. If the robot has no such name, the error names it.
 #pragma once
 
 #include <string>
@@ -6,7 +6,7 @@
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/robot/kinematics.h"
 
-/// The joint's place in q. @throws fcl_stpbv::Error where the robot has no such joint with a coordinate.
+/// The joint's index in q. @throws fcl_stpbv::Error if the robot has no joint of this name with a coordinate.
 inline int coordinateOf(const fcl_stpbv::Kinematics& kinematics, const std::string& joint) {
   const int k = kinematics.coordinate(joint);
   if (k < 0)
@@ -15,7 +15,7 @@ inline int coordinateOf(const fcl_stpbv::Kinematics& kinematics, const std::stri
   return k;
 }
 
-/// The link's index. @throws fcl_stpbv::Error where the robot has no such link.
+/// The link's index. @throws fcl_stpbv::Error if the robot has no link of this name.
 inline int linkOf(const fcl_stpbv::RobotModel& robot, const std::string& link) {
   const int i = robot.link(link);
   if (i < 0)

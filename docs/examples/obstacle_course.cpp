@@ -1,4 +1,5 @@
-// One link through a course of every FCL geometry: signed distance, witness points and the obstacle's part.
+// Moves one link through a course with every FCL geometry, and prints signed distance, witness points and the
+// obstacle's part.
 #include <fcl/config.h>
 #include <fcl/geometry/bvh/BVH_model.h>
 #include <fcl/geometry/geometric_shape_to_BVH_model.h>
@@ -45,7 +46,7 @@ int main() {
   bool good = true;
   for (const auto& [name, obstacle] : course) {
     double last = 0;
-    for (int i = 0; i <= 100; ++i) {  // from 1.5 m to 0.5 m before the obstacle
+    for (int i = 0; i <= 100; ++i) {  // from 1.5 m to 0.5 m in front of the obstacle
       fcl::Transform3d at = fcl::Transform3d::Identity();
       at.translation().x() = -1.5 + 0.01 * i;
       const auto answer = fcl_stpbv::distance(link, at, *obstacle, fcl::Transform3d::Identity());

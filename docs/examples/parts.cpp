@@ -1,4 +1,4 @@
-// What docs/parts.md shows, for a mesh of the robot in data/hrp2_style: run in that folder.
+// The code of docs/parts.md, for a mesh of the robot in data/hrp2_style. Run it in that folder.
 #include <fcl/broadphase/broadphase_dynamic_AABB_tree.h>
 
 #include <cstdio>
@@ -23,7 +23,7 @@ const ConvexParts parts = convexParts(loadMesh("meshes/BODY.dae"), {8});   // ei
 for (const ConvexPart& part : parts.parts) volumes.push_back(StpBv::build(part.points, {0.01, 10.0}));
 // no point of a part's hull is farther from the mesh's solid than parts.excess
     // clang-format on
-    // Two such bodies in FCL's broadphase, as docs/fcl.md shows.
+    // Puts two such bodies into FCL's broadphase, as docs/fcl.md shows.
     std::vector<std::unique_ptr<fcl::CollisionObjectd>> objects;
     DistanceData data;
     fcl::Transform3d pose = fcl::Transform3d::Identity();
@@ -44,7 +44,7 @@ data.leaveOut = [](const auto* a, const auto* b) { return a->getUserData() == b-
     for (const auto& object : objects) scene.registerObject(object.get());
     scene.setup();
     scene.distance(&data, distanceCallback);
-    // Three pairs of the robot as fine as they need to be in its neutral posture.
+    // Refines three pairs of the robot as far as needed in its neutral posture.
     const auto robot = std::make_shared<const RobotModel>(loadUrdf("hrp2_style.urdf"));
     const auto kinematics = std::make_shared<const Kinematics>(robot);
     const Eigen::VectorXd q = kinematics->neutral();

@@ -1,4 +1,4 @@
-// What docs/proofs.md shows, for the robot in data/hrp2_style: run in that folder.
+// The code of docs/proofs.md, for the robot in data/hrp2_style. Run it in that folder.
 #include <cstdio>
 
 #include "docs/examples/reported.h"

@@ -1,4 +1,4 @@
-// The README's ten lines, between two boxes, and the second derivatives of docs/fcl.md.
+// The README's ten lines with two boxes, and the second derivatives of docs/fcl.md.
 #include <fcl/broadphase/broadphase_dynamic_AABB_tree.h>
 
 #include <cstdio>

@@ -1,4 +1,4 @@
-// What the examples' main() does with an error: its message, and exit status 1.
+// Runs an example's main() and reports an error: its message, and exit status 1.
 #pragma once
 
 #include <cstdio>

@@ -1,4 +1,4 @@
-// What docs/robot.md and docs/posture.md show, for the robot in data/hrp2_style: run in that folder.
+// The code of docs/robot.md and docs/posture.md, for the robot in data/hrp2_style. Run it in that folder.
 #include <cstdio>
 
 #include "docs/examples/reported.h"
@@ -14,7 +14,7 @@ using namespace fcl_stpbv;
 
 namespace {
 
-/// A constraint of one's own: the first coordinate is at least -1.
+/// A user-defined constraint: the first coordinate is at least -1.
 class Mine : public PostureRows {
  public:
   Kind kind() const override { return Kind::atLeast; }

@@ -40,7 +40,7 @@ def make_samples(folder):
     robot, fridge, ladder = (project / "data" / name for name in ("hrp2_style", "fridge", "ladder"))
     shutil.copytree(robot, folder, dirs_exist_ok=True)
     shutil.copytree(fridge, folder / "fridge")
-    (folder / "data").symlink_to(project / "data")  # for pages whose commands run in the project's folder
+    (folder / "data").symlink_to(project / "data")  # for pages whose commands are run in the project's folder
     for source, name in ((robot / "hrp2_style.urdf", "robot.urdf"), (robot / "hrp2_style.srdf", "robot.srdf"),
                          (fridge / "pick_can.json", "pick_can.json"), (fridge / "pick_can.json", "task.json"),
                          (fridge / "fridge.urdf", "fridge.urdf"), (ladder / "ladder.urdf", "ladder.urdf"),

@@ -14,7 +14,7 @@ using Eigen::Vector2d;
 
 namespace {
 
-constexpr double kScale = 400;  // pixels a metre
+constexpr double kScale = 400;  // pixels per metre
 constexpr int kWidth = 580, kHeight = 655;
 
 // How the bodies look; the colours are those of pageHead.

@@ -1,5 +1,4 @@
-// What the planner found, as a page to look at: the robot along its way
-// from the side, and the least distance.
+// The planner's result as a page: the robot along its path, seen from the side, and the least distance.
 #pragma once
 
 #include <string>

@@ -1,5 +1,6 @@
-// Plans the upper body's way to the can with OMPL's RRT-Connect, motions judged by proofs, and beside it with
-// `fcl::collide` on the hulls and OMPL's sampled motions, and tells by proof how many of those paths collide.
+// Plans a motion of the upper body to the can by OMPL's RRT-Connect, with motions checked by proofs. For
+// comparison, plans it with `fcl::collide` on the hulls and OMPL's sampled motions, and checks by proof how
+// many of those paths collide.
 //   example_ompl DATA_FOLDER [RUNS [PAGE.html]]      the data folder of the project; RUNS of each
 #include <ompl/base/ScopedState.h>
 #include <ompl/geometric/PathSimplifier.h>
@@ -48,7 +49,7 @@ struct Plan {
   Path path;
 };
 
-/// RRT-Connect, then OMPL's simplifier, which prefers clearance where there is an objective.
+/// RRT-Connect, then OMPL's simplifier, which prefers clearance if there is an objective.
 Plan planned(const Scene& scene, const ob::SpaceInformationPtr& space,
              const ob::OptimizationObjectivePtr& objective) {
   constexpr double kMostSeconds = 20;
@@ -74,8 +75,8 @@ Plan planned(const Scene& scene, const ob::SpaceInformationPtr& space,
   return plan;
 }
 
-/// A way point pulled towards the middle of its neighbours, and pushed away from pairs nearer than
-/// `clearance` along their gradients.
+/// A way point moved towards the middle of its neighbours, and pushed away from pairs nearer than `clearance`
+/// along their gradients.
 Eigen::VectorXd moved(const Scene& scene, CollisionConstraints& rows, const Eigen::VectorXd& before,
                       const Eigen::VectorXd& q, const Eigen::VectorXd& after, double clearance) {
   Eigen::VectorXd d(rows.rows()), push = Eigen::VectorXd::Zero(q.size());
@@ -92,7 +93,7 @@ Eigen::VectorXd moved(const Scene& scene, CollisionConstraints& rows, const Eige
   return next.cwiseMax(scene.kinematics->lower()).cwiseMin(scene.kinematics->upper());
 }
 
-/// A step stays only where both motions beside it are proven free.
+/// Shortens a path. A step is kept only if both motions beside the way point are proven free.
 void shorten(const Scene& scene, MotionCheck& check, CollisionConstraints& rows, Path& path) {
   constexpr int kRounds = 20;
   constexpr double kClearance = 0.02;  // m
@@ -103,7 +104,7 @@ void shorten(const Scene& scene, MotionCheck& check, CollisionConstraints& rows,
     }
 }
 
-/// With way points in between, so that there is something to move.
+/// The path with additional way points, so that there are points to move.
 Path divided(const Path& path, double most) {
   Path finer{path[0]};
   for (std::size_t i = 1; i < path.size(); ++i) {
@@ -183,7 +184,7 @@ void planByProofs(const Scene& scene, MotionCheck& check, CollisionConstraints& 
 void planBySamples(const Scene& scene, MotionCheck& hulls, Sum& sum) {
   const ob::SpaceInformationPtr space = spaceOf(scene);
   const auto states = std::make_shared<HullStates>(space, scene);
-  space->setStateValidityChecker(states);  // and the default motion validator, at its default resolution
+  space->setStateValidityChecker(states);  // with the default motion validator, at its default resolution
   space->setup();
   const Plan plan = planned(scene, space, nullptr);
   sum.add(plan);

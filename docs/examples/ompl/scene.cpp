@@ -17,7 +17,7 @@ Eigen::VectorXd Scene::whole(const double* planned) const {
 
 namespace {
 
-/// Without those that the planned coordinates do not move: they hold all along or never.
+/// The pairs without those that the planned coordinates do not move, which are always or never clear.
 std::vector<CheckedPair> movedPairs(const Scene& scene, const std::vector<CheckedPair>& pairs) {
   Eigen::VectorXd moved = scene.start;
   for (const int k : scene.coordinates) moved[k] += 0.1 + 0.01 * k;

@@ -1,4 +1,5 @@
-// A humanoid before a fridge: its upper body is planned for, from standing to a posture that holds the can.
+// A humanoid in front of a fridge. The motion of its upper body is planned, from standing to a posture that
+// holds the can.
 #pragma once
 
 #include <vector>
@@ -13,13 +14,14 @@ struct Scene {
       hulls;  ///< STP-BVs, and the plain hulls of the meshes
   std::vector<fcl_stpbv::Obstacle> obstacles, hullObstacles;
   std::vector<fcl_stpbv::CheckedPair> pairs;
-  Eigen::VectorXd start, goal;   ///< all coordinates; they differ in the planned ones alone
-  std::vector<int> coordinates;  ///< planned: chest, head and arms
+  Eigen::VectorXd start, goal;   ///< all coordinates; they differ only in the planned ones
+  std::vector<int> coordinates;  ///< the planned coordinates: chest, head and arms
 
   Eigen::VectorXd whole(const double* planned) const;
 };
 
-/// From a project's data folder; the goal is what the posture generator finds for the task pick_can.json.
+/// Loads the scene from a project's data folder. The goal is the posture that is found for the task
+/// pick_can.json.
 /// @throws fcl_stpbv::Error.
 Scene loadScene(const std::string& data);
 

@@ -1,4 +1,4 @@
-// OMPL's questions about states and motions: by this library's proofs, and as plain FCL users ask them.
+// Answers OMPL's queries about states and motions, by this library's proofs and as plain FCL users do.
 #pragma once
 
 #include <fcl/narrowphase/collision.h>
@@ -22,7 +22,7 @@ inline const double* valuesOf(const ob::State* state) {
   return state->as<ob::RealVectorStateSpace::StateType>()->values;
 }
 
-/// How many questions were asked, and how long their answers took.
+/// Number of queries, and the time of their answers.
 struct Count {
   long asked = 0;
   double seconds = 0;
@@ -37,8 +37,8 @@ struct Count {
   }
 };
 
-/// A state is valid where no pair is within the margin, told by early exits; its clearance is the least exact
-/// distance of all pairs.
+/// A state is valid if no pair is within the margin; the check stops early. The clearance of a state is the
+/// least exact distance of all pairs.
 class SmoothStates : public ob::StateValidityChecker {
  public:
   SmoothStates(const ob::SpaceInformationPtr& space, const Scene& scene, fcl_stpbv::MotionCheck& check,
@@ -65,12 +65,12 @@ class Clearance : public ob::StateCostIntegralObjective {
  public:
   explicit Clearance(const ob::SpaceInformationPtr& space) : ob::StateCostIntegralObjective(space, false) {}
   ob::Cost stateCost(const ob::State* state) const override {
-    constexpr double kTouch = 1e-3;  // m: nearer than this costs no more
+    constexpr double kTouch = 1e-3;  // m: a smaller clearance costs no more
     return ob::Cost(1 / std::max(kTouch, si_->getStateValidityChecker()->clearance(state)));
   }
 };
 
-/// A motion is valid where it is proven free, and the last valid state is that before the first contact.
+/// A motion is valid if it is proven free. The last valid state is the one before the first contact.
 class ProvenMotions : public ob::MotionValidator {
  public:
   ProvenMotions(const ob::SpaceInformationPtr& space, const Scene& scene, fcl_stpbv::MotionCheck& check)
@@ -84,7 +84,7 @@ class ProvenMotions : public ob::MotionValidator {
     const fcl_stpbv::MotionBracket found =
         count([&] { return check_.firstContact(scene_.whole(valuesOf(from)), scene_.whole(valuesOf(to))); });
     if (found.verdict == fcl_stpbv::MotionVerdict::free) return true;
-    lastValid.second = found.from;  // proven free before it
+    lastValid.second = found.from;  // proven free up to here
     if (lastValid.first) si_->getStateSpace()->interpolate(from, to, lastValid.second, lastValid.first);
     return false;
   }
@@ -95,7 +95,7 @@ class ProvenMotions : public ob::MotionValidator {
   fcl_stpbv::MotionCheck& check_;
 };
 
-/// `fcl::collide` of the hulls, pair by pair; motions then by OMPL's own samples.
+/// `fcl::collide` of the hulls, pair by pair. Motions are checked by OMPL's own samples.
 class HullStates : public ob::StateValidityChecker {
  public:
   HullStates(const ob::SpaceInformationPtr& space, const Scene& scene)
