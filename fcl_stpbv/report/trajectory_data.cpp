@@ -15,7 +15,7 @@ using namespace detail;
 
 namespace {
 
-nlohmann::json numbers(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+nlohmann::json asList(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
 std::size_t pairAt(const CollisionReport& report, int row) {
   const std::pair<std::string, std::string>& names = report.trajectoryPairs[at(row)];
@@ -42,9 +42,9 @@ nlohmann::json contactOf(const CollisionReport& report, std::size_t i, std::size
            std::isfinite(pair.hullDistance) ? nlohmann::json(pair.hullDistance) : nlohmann::json()},
           {"over_cover1", pair.overCover1},
           {"over_cover2", pair.overCover2},
-          {"point1", numbers(pair.answer.points[0])},
-          {"point2", numbers(pair.answer.points[1])},
-          {"normal", numbers(pair.answer.normal)},
+          {"point1", asList(pair.answer.points[0])},
+          {"point2", asList(pair.answer.points[1])},
+          {"normal", asList(pair.answer.normal)},
           {"gradient", pair.gradient}};
 }
 
