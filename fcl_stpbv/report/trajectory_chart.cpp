@@ -109,13 +109,16 @@ class Chart : public Drawing {
   void curve() {
     line(-9, kTop, -9, kBottom,
          "id=\"chosen\" stroke=\"#2a7ae2\" opacity=\"0.6\"");  // of a page, once it is asked for
+    line(-9, kTop, -9, kBottom,
+         "id=\"cursor\" stroke=\"currentColor\" opacity=\"0.6\"");  // where its mouse is
     svg += "<polyline fill=\"none\" stroke=\"#2a7ae2\" stroke-width=\"2\" points=\"";
     for (std::size_t i = 0; i < time_.size(); ++i) add("%.2f,%.2f ", x(time_[i]), y(scale_ * distance_[i]));
     svg += "\"/>";
     const double dot = y(scale_ * least_), below = dot + 20 < kBottom ? 18 : -8;
     add("<circle cx=\"%.1f\" cy=\"%.1f\" r=\"4\" fill=\"#2a7ae2\"/>", x(nearest_), dot);
     const double shown = std::abs(least_) < 1e-9 ? 0 : scale_ * least_;
-    text(x(nearest_), dot + below, beside(x(nearest_)), formatted("closest: %.4g %s", shown, unit_));
+    text(x(nearest_), dot + below, beside(x(nearest_)),
+         formatted("closest: %.4g %s", shown, unit_) + when(nearest_));
   }
 
   void verdict() {
@@ -127,18 +130,21 @@ class Chart : public Drawing {
          formatted("stroke=\"%s\" stroke-width=\"2\"%s", colour, contact ? "" : " stroke-dasharray=\"6 4\"")
              .c_str());
     text(at, kTop - 3, formatted("%s fill=\"%s\"", beside(at), colour).c_str(),
-         contact ? "first contact" : "not decided from here");
+         contact ? "first contact" + when(report_.stop.until) : "not decided from here");
   }
 
  private:
   static constexpr double kWidth = 1200, kHeight = 270, kTop = 24, kBottom = 226, kRight = 1184;
   static constexpr double kLetter = 8,
-                          kRoom = 130;  // as wide as a letter of 13 pixels and a label are at most
+                          kRoom = 300;  // as wide as a letter of 13 pixels and a label are at most
   static constexpr const char* kGrid = "stroke=\"currentColor\" opacity=\"0.15\"";
   static constexpr const char *kMiddle = "text-anchor=\"middle\"", *kEnd = "text-anchor=\"end\"";
 
   double x(double t) const { return left_ + (kRight - left_) * (t - begin_) / (end_ - begin_); }
   double y(double level) const { return kBottom - (kBottom - kTop) * (level - low_) / (high_ - low_); }
+  std::string when(double t) const {
+    return (report_.trajectory.timed ? " at " : " at way point ") + report_.timeText(t);
+  }
   static const char* beside(double at) {
     return at > kRight - kRoom ? "text-anchor=\"end\" dx=\"-7\"" : "dx=\"7\"";
   }
@@ -156,81 +162,12 @@ class Chart : public Drawing {
 }  // namespace
 
 std::string chartOf(const TrajectoryReport& report, double margin) {
-  constexpr double kWidth = 1200, kHeight = 270, kTop = 24, kBottom = 226, kRight = 1184;
-  constexpr double kLetter = 8, kRoom = 300;  // as wide as a letter of 13 pixels and a label are at most
-  constexpr const char* kGrid = "stroke=\"currentColor\" opacity=\"0.15\"";
-  constexpr const char *kMiddle = "text-anchor=\"middle\"", *kEnd = "text-anchor=\"end\"";
-  const std::vector<double>&time = report.chartTime, &distance = report.chartDistance;
-  const double begin = time.front(), end = time.back();
-  const auto [least, most] = std::minmax_element(distance.begin(), distance.end());
-  const double scale = *most >= 10 ? 1 : 1e3;  // m or mm
-  const char* unit = *most >= 10 ? "m" : "mm";
-  const double lowest = scale * std::min({0.0, margin, *least}),
-               highest = scale * std::max({*most, margin, *least + 1e-6});
-  const Ticks levels(highest - lowest, 5), times(end - begin, 10);
-  const double low = levels.step * std::floor(lowest / levels.step + 1e-9),
-               high = levels.step * std::ceil(highest / levels.step - 1e-9);
-  const auto width = [&](double level) { return kLetter * static_cast<double>(levels.label(level).size()); };
-  const double left = 34 + std::max(width(low), width(high));
-  const auto x = [&](double t) { return left + (kRight - left) * (t - begin) / (end - begin); };
-  const auto y = [&](double level) { return kBottom - (kBottom - kTop) * (level - low) / (high - low); };
-  const auto beside = [&](double at) {
-    return at > kRight - kRoom ? "text-anchor=\"end\" dx=\"-7\"" : "dx=\"7\"";
-  };
-
-  Drawing d;
-  d.add(
-      "<svg viewBox=\"0 0 %g %g\" role=\"img\" aria-label=\"Least distance over time\" font-size=\"13\" "
-      "fill=\"currentColor\" data-left=\"%g\" data-right=\"%g\">",
-      kWidth, kHeight, left, kRight);
-  levels.each(low, high, [&](double level) {
-    const bool zero = std::abs(level) < 0.5 * levels.step;
-    d.line(left, y(level), kRight, y(level), zero ? "stroke=\"currentColor\"" : kGrid);
-    d.text(left - 7, y(level) + 4, "text-anchor=\"end\"", levels.label(level));
-  });
-  times.each(begin, end, [&](double at) {
-    d.line(x(at), kTop, x(at), kBottom, kGrid);
-    const std::string label = times.label(at);
-    const bool atEdge = x(at) + 0.5 * kLetter * static_cast<double>(label.size()) > kWidth;
-    d.text(x(at), kBottom + 18, atEdge ? kEnd : kMiddle, label);
-  });
-  d.text(0.5 * (left + kRight), kHeight - 6, kMiddle, report.trajectory.timed ? "time [s]" : "way point");
-  d.add("<text transform=\"translate(14 %g) rotate(-90)\" text-anchor=\"middle\">least distance [%s]</text>",
-        0.5 * (kTop + kBottom), unit);
-  const double nearest = time[static_cast<std::size_t>(least - distance.begin())];
-  if (margin != 0) {
-    d.line(left, y(scale * margin), kRight, y(scale * margin),
-           "stroke=\"currentColor\" stroke-dasharray=\"2 4\"");
-    const bool atLeft = x(nearest) > 0.5 * (left + kRight);  // not over what is said of the closest approach
-    d.text(atLeft ? left + 7 : kRight, y(scale * margin) - 5, atLeft ? "" : kEnd,
-           formatted("margin %g %s", scale * margin, unit));
-  }
-  d.line(-9, kTop, -9, kBottom,
-         "id=\"chosen\" stroke=\"#2a7ae2\" opacity=\"0.6\"");  // of a page, once it is asked for
-  d.line(-9, kTop, -9, kBottom,
-         "id=\"cursor\" stroke=\"currentColor\" opacity=\"0.6\"");  // where its mouse is
-  d.svg += "<polyline fill=\"none\" stroke=\"#2a7ae2\" stroke-width=\"2\" points=\"";
-  for (std::size_t i = 0; i < time.size(); ++i) d.add("%.2f,%.2f ", x(time[i]), y(scale * distance[i]));
-  d.svg += "\"/>";
-  d.add("<circle cx=\"%.1f\" cy=\"%.1f\" r=\"4\" fill=\"#2a7ae2\"/>", x(nearest), y(scale * *least));
-  const double dot = y(scale * *least), below = dot + 20 < kBottom ? 18 : -8;
-  const double shown = std::abs(*least) < 1e-9 ? 0 : scale * *least;
-  const auto when = [&](double at) {
-    return (report.trajectory.timed ? " at " : " at way point ") + report.timeText(at);
-  };
-  d.text(x(nearest), dot + below, beside(x(nearest)),
-         formatted("closest: %.4g %s", shown, unit) + when(nearest));
-  if (report.verdict != MotionVerdict::free) {
-    const bool contact = report.verdict == MotionVerdict::contact;
-    const double at = x(contact ? report.stop.until : report.stop.from);
-    const char* colour = contact ? "var(--hit, #c0392b)" : "var(--warn, #7a5200)";
-    d.line(at, kTop - 12, at, kBottom,
-           formatted("stroke=\"%s\" stroke-width=\"2\"%s", colour, contact ? "" : " stroke-dasharray=\"6 4\"")
-               .c_str());
-    d.text(at, kTop - 3, formatted("%s fill=\"%s\"", beside(at), colour).c_str(),
-           contact ? "first contact" + when(report.stop.until) : "not decided from here");
-  }
-  return d.svg + "</svg>";
+  Chart chart(report, margin);
+  chart.axes();
+  chart.marginLine();
+  chart.curve();
+  chart.verdict();
+  return chart.svg + "</svg>";
 }
 
 }  // namespace fcl_stpbv::report
