@@ -123,8 +123,10 @@ class WaysOut {
     found.at.gap = -best_.depth;
     found.at.y = ontoTriangle(met_.three(), best_.point + found.at.gap * best_.n);
     found.at.corners = 1;
-    if (const auto exact = deepestFeature(q_, {found.at.n, found.at.patch}, found.at.gap, met_))
-      found.at = exact->at;
+    std::optional<DeepFeature> exact;
+    for (const bool ascend : {false, true})
+      if (!exact) exact = deepestFeature(q_, {found.at.n, found.at.patch}, found.at.gap, met_, ascend);
+    if (exact) found.at = exact->at;
     return found;
   }
 

@@ -26,8 +26,10 @@ using Eigen::Vector3d;
 namespace {
 
 /// Newton's method on one feature, from a start near the least overlap. No value if it does not converge.
+/// `ascend`: then it ascends step by step, which takes longer.
 template <typename Feature>
-std::optional<Nearest> deepestOn(ShapeQuery& q, const Feature& feature, const StartNormal& start) {
+std::optional<Nearest> deepestOn(ShapeQuery& q, const Feature& feature, const StartNormal& start,
+                                 bool ascend) {
   constexpr int kSteps = 20, kHalvings = 12;  // the start is good to some digits
   const Vector3d* t = feature.direction();
   const Vector3d n = t ? acrossLine(start.n, *t) : start.n;
@@ -44,7 +46,12 @@ std::optional<Nearest> deepestOn(ShapeQuery& q, const Feature& feature, const St
     }
     if (!flatter) break;
   }
-  if (!(x.across.norm() <= rounded())) return {};
+  if (x.across.norm() <= rounded()) return nearestFrom(x, feature);
+  if (!ascend) return {};
+  // At a large R the region of a patch is narrower than the error of the start. Beyond its boundaries
+  // Newton's step leads elsewhere.
+  x = ascentPoint(q.body, feature, n, start.patch, q.steps);
+  if (!ascendFrom(q.body, feature, x, q.rounding, q.pairs, q.steps)) return {};
   return nearestFrom(x, feature);
 }
 
@@ -59,12 +66,19 @@ bool isDeepest(const ShapeQuery& q, const Nearest& found, double leastOverlap, c
   return (ontoCore(q.shape, own) - own).norm() <= 2.0 * q.rounding.gap;
 }
 
+bool hasCorners(const Shape& shape) {
+  return shape.kind == ShapeKind::box || shape.kind == ShapeKind::triangle ||
+         shape.kind == ShapeKind::polytope;
+}
+
 /// The features that the least overlap may be on.
 class DeepFeatures {
  public:
-  /// `met`: the shape's corners that EPA's answer is a combination of.
-  DeepFeatures(ShapeQuery& q, const StartNormal& start, double leastOverlap, const ShapeCorners& met)
-      : q_(q), start_(start), least_(leastOverlap), met_(met) {}
+  /// `met`: the shape's corners that EPA's answer is a combination of. `ascend`: whether to ascend where
+  /// Newton's method fails.
+  DeepFeatures(ShapeQuery& q, const StartNormal& start, double leastOverlap, const ShapeCorners& met,
+               bool ascend)
+      : q_(q), start_(start), least_(leastOverlap), met_(met), ascend_(ascend) {}
 
   /// The first feature that has the answer.
   std::optional<DeepFeature> search() {
@@ -105,9 +119,10 @@ class DeepFeatures {
     return found_;
   }
 
-  /// For a polytope whose core only touches the volume's: its face, edge or corner along the start's normal.
+  /// For a polytope: its face, edge or corner along the start's normal.
   std::optional<DeepFeature> searchAlongNormal() {
-    for (const double angle : {1e-6, 1e-9}) {  // rad: rounding of the gap may turn the normal by this
+    for (const double angle : {1e-3, 1e-6, 1e-9}) {  // rad: rounding of the gap may turn the normal by this
+      if (found_ || (angle > 1e-4 && !ascend_)) continue;
       NormalCone cone;
       const Vector3d p = q_.facing(start_.n);
       if (!normalCone(q_.shape, q_.pose.opposite(start_.n), p, 2.0 * angle * q_.shape.reach, cone)) continue;
@@ -143,13 +158,13 @@ class DeepFeatures {
     take(search, [](const Nearest&, LocalMaximum&) {});
   }
   void point(const Vector3d& p) {
-    take([&] { return deepestOn(q_, PointFeature{p}, start_); });
+    take([&] { return deepestOn(q_, PointFeature{p}, start_, ascend_); });
   }
   /// A line on the shape. `length` (m): of the edge between two met corners, 0 for a named feature.
   void line(const Vector3d& p, const Vector3d& t, double length = 0.0) {
     take(
         [&] {
-          return deepestOn(q_, LineFeature{p, t}, start_);
+          return deepestOn(q_, LineFeature{p, t}, start_, ascend_);
         },
         [&](const Nearest& at, LocalMaximum& local) {
           const double along = t.dot(at.y - p);
@@ -157,7 +172,7 @@ class DeepFeatures {
         });
   }
   void rim(const Vector3d& middle, const Vector3d& axis) {
-    take([&] { return deepestOn(q_, RimFeature{middle, axis, q_.shape.radius}, start_); });
+    take([&] { return deepestOn(q_, RimFeature{middle, axis, q_.shape.radius}, start_, ascend_); });
   }
   /// A flat face with the normal `n` or `-n`. `inside` returns the distance of a point from the boundary of
   /// the known part of the face.
@@ -173,7 +188,7 @@ class DeepFeatures {
   /// A cylinder's side: its axis, with the radius around it.
   void side(const Vector3d& axis) {
     take([&] {
-      std::optional<Nearest> found = deepestOn(q_, LineFeature{q_.translation, axis}, start_);
+      std::optional<Nearest> found = deepestOn(q_, LineFeature{q_.translation, axis}, start_, ascend_);
       if (!found) return found;
       found->gap -= q_.shape.radius;
       found->y -= q_.shape.radius * found->n;
@@ -193,7 +208,7 @@ class DeepFeatures {
     }
     if (e.isDisc) plane(q_.translation, q_.rotation.col(e.shortest));
     take([&]() -> std::optional<Nearest> {
-      std::optional<Nearest> found = deepestOn(q_, e.whole, start_);
+      std::optional<Nearest> found = deepestOn(q_, e.whole, start_, ascend_);
       if (!found || !(e.whole.wobble(found->n) > q_.rounding.across)) return found;
       placeOppositeOnEllipsoid(q_, *found);
       const Vector3d opposite =
@@ -230,23 +245,24 @@ class DeepFeatures {
   StartNormal start_;
   double least_;
   const ShapeCorners& met_;
+  bool ascend_;
   std::optional<DeepFeature> found_;
 };
 
 }  // namespace
 
 std::optional<DeepFeature> deepestFeature(ShapeQuery& q, const StartNormal& start, double leastOverlap,
-                                          const ShapeCorners& met) {
-  return DeepFeatures(q, start, leastOverlap, met).search();
+                                          const ShapeCorners& met, bool ascend) {
+  DeepFeatures features(q, start, leastOverlap, met, ascend);
+  const std::optional<DeepFeature> found = features.search();
+  // EPA may have met other corners than those of the feature.
+  return found || !ascend || !hasCorners(q.shape) ? found : features.searchAlongNormal();
 }
 
 std::optional<DeepFeature> touchingFeature(ShapeQuery& q, const Nearest& near) {
   const ShapeCorners none;
-  DeepFeatures features(q, {near.n, near.patch}, near.gap, none);
-  const ShapeKind kind = q.shape.kind;
-  if (kind == ShapeKind::box || kind == ShapeKind::triangle || kind == ShapeKind::polytope)
-    return features.searchAlongNormal();
-  return features.search();
+  DeepFeatures features(q, {near.n, near.patch}, near.gap, none, false);
+  return hasCorners(q.shape) ? features.searchAlongNormal() : features.search();
 }
 
 }  // namespace fcl_stpbv::detail

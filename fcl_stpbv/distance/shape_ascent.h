@@ -219,15 +219,14 @@ inline Eigen::Vector3d newtonTarget(const StpBv& body, const AscentPoint& x, con
   return (n + ((m22 * g1 - m12 * g2) / det) * e1 + ((m11 * g2 - m12 * g1) / det) * e2).normalized();
 }
 
-/// Ascends from `x` to the widest gap. True if the gradient there is only rounding. Each step raises the gap:
-/// if Newton's step does not, it is shortened to where the slope along it is about zero, by a bracketed
-/// secant method (the gap is C1).
+/// Ascends from `x` to a local maximum of the gap. True if the gradient there is only rounding. Each step
+/// raises the gap: if Newton's step does not, it is shortened to where the slope along it is about zero, by a
+/// bracketed secant method (the gap is C1).
 template <typename Feature>
-bool ascendFeature(const StpBv& body, const Feature& feature, AscentPoint& x, const Rounding& rounding,
-                   int& pairs, int& steps) {
+bool ascendFrom(const StpBv& body, const Feature& feature, AscentPoint& x, const Rounding& rounding,
+                int& pairs, int& steps) {
   constexpr int kSteps = 60, kTrials = 40;
   constexpr double kFlat = 0.05;  // of the slope at the start; the next Newton step solves for the rest
-  if (!findGap(body, feature, x, rounding.gap, steps)) return false;
   for (int i = 0; i < kSteps; ++i) {
     const double flat = x.across.norm();
     const double rounded = rounding.across + feature.wobble(x.view.n);
@@ -273,19 +272,13 @@ bool ascendFeature(const StpBv& body, const Feature& feature, AscentPoint& x, co
         Eigen::Vector3d m = ((1.0 - at) * x.view.n + at * to).normalized();
         const AscentPoint mid = ascentPoint(body, feature, m, x.view.patch, steps);
         const double here = slope(mid);
-        if (better(mid, best)) {
-          best = mid;
-          grew = true;
-        }
+        if (better(mid, best)) best = mid, grew = true;
         const bool above = mid.gap >= x.gap - rounding.gap;
         if (above && std::abs(here) <= kFlat * start) break;
-        if (above && here > 0.0) {
-          low = at;
-          lowSlope = here;
-        } else {
-          high = at;
-          highSlope = std::min(here, 0.0);
-        }
+        if (above && here > 0.0)
+          low = at, lowSlope = here;
+        else
+          high = at, highSlope = std::min(here, 0.0);
       }
       if (!grew) return false;
       y = best;
@@ -293,6 +286,15 @@ bool ascendFeature(const StpBv& body, const Feature& feature, AscentPoint& x, co
     x = y;
   }
   return x.across.norm() <= rounding.across + feature.wobble(x.view.n);
+}
+
+/// Ascends to the widest gap, from any start. True if there is a gap, and its gradient there is only
+/// rounding.
+template <typename Feature>
+bool ascendFeature(const StpBv& body, const Feature& feature, AscentPoint& x, const Rounding& rounding,
+                   int& pairs, int& steps) {
+  return findGap(body, feature, x, rounding.gap, steps) &&
+         ascendFrom(body, feature, x, rounding, pairs, steps);
 }
 
 }  // namespace fcl_stpbv::detail

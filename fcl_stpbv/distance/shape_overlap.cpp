@@ -81,14 +81,18 @@ LeastOverlap leastOverlap(ShapeQuery& q, const StartNormal& start) {
   Epa<ShapeDifference> epa(difference, q.rounding.gap, q.body.radii().rho);
   epa.look(start.n);
   std::optional<DeepFeature> top;
+  bool ascend = false;
   const auto maximum = [&](Epa<ShapeDifference>& search) -> std::optional<LocalMaximum> {
-    top = deepestFeature(q, {search.n, -1}, search.gap, cornersMet(search));
+    top = deepestFeature(q, {search.n, -1}, search.gap, cornersMet(search), ascend);
     if (!top) return {};
     if (top->at.gap > search.gap) search.gap = top->at.gap, search.n = top->at.n;
     return top->around;
   };
   if (!epa.run(maximum)) climbToLeastOverlap(epa);
-  if (!top || epa.gap > top->at.gap + q.rounding.gap) maximum(epa);
+  if (!top || epa.gap > top->at.gap + q.rounding.gap) {
+    ascend = true;
+    maximum(epa);
+  }
   // The polytope's points are off by the rounding of the volume's core points.
   LeastOverlap best{{}, std::max(epa.bound, epa.gap) + q.rounding.across, true, epa.solved()};
   if (top) {

@@ -186,9 +186,9 @@ struct DeepFeature {
 
 /// For overlapping cores and a start near the answer: normal and points up to rounding, from the shape's
 /// feature there. For a polytope it is a feature of the corners `met`. No value if no feature has a gap of at
-/// least `leastOverlap`.
+/// least `leastOverlap`. `ascend`: searches longer, where Newton's method does not converge.
 std::optional<DeepFeature> deepestFeature(ShapeQuery& q, const StartNormal& start, double leastOverlap,
-                                          const ShapeCorners& met);
+                                          const ShapeCorners& met, bool ascend = false);
 
 /// For overlapping cores of the volume and a segment, a triangle or a box: the answer in closed form. No
 /// value for other kinds, and if no point of the shape is deep enough (volume/point_depth.h).

@@ -147,6 +147,46 @@ TEST_CASE("deep in an STP-BV both witness points are on their bodies and opposit
 }
 
 TEST_CASE(
+    "a round shape deep in an STP-BV with large R: the gap is a local maximum, the points are opposite") {
+  // At these R a patch's region of normals is down to 1e-9 rad wide, less than the error of EPA's normal.
+  const Cloud flat = box(1, 1, 1e-3), prism = cylinder(0.5, 1, 16), hexagon = cylinder(0.5, 1, 6);
+  const Vector3d slanted = Vector3d(-0.693304, -0.151656, -0.704507).normalized();
+  struct Case {
+    const Cloud& cloud;
+    double r;
+    TestShape shape;
+    Isometry3d at;
+  };
+  const auto turned = [](double angle, const Vector3d& axis, double up) {
+    return pose(Eigen::AngleAxisd(angle, axis).toRotationMatrix(), Vector3d(0, 0, up));
+  };
+  const TestShape ellipsoid{"ellipsoid", Shape::ellipsoidOf({0.5, 0.4, 1}), nullptr},
+      tube{"cylinder", Shape::cylinderOf(0.5, 2), nullptr};
+  std::vector<Case> cases{{flat, 0.01, ellipsoid, turned(1e-7, slanted, 0)}};
+  for (const double tilt : {1e-9, 1e-8, 1e-7, 1e-6})
+    for (const double up : {0.0, 0.1}) {
+      cases.push_back({prism, 0, tube, turned(tilt, Vector3d::UnitX(), up)});
+      cases.push_back({hexagon, 0, tube, turned(tilt, Vector3d::UnitX(), up)});
+    }
+  for (const double R : {1e4, 1e5, 1e6})
+    for (const Case& c : cases) {
+      const Isometry3d base = Isometry3d::Identity();
+      const Distance d = distance(c.shape.shape, base, *StpBv::build(c.cloud, {c.r, R}), c.at);
+      const ReferenceShape ra = c.shape.posed(base);
+      const ReferenceBody rb = referenceBody(c.cloud, c.r, R, c.at);
+      const auto gap = [&](const Vector3L& n) -> long double {
+        return -referenceSupport(rb, -n) - n.dot(ra.support(n)) - ra.margin;
+      };
+      CAPTURE(R, c.shape.name, c.cloud.size(), c.at.translation()[2], d.distance);
+      REQUIRE(d.status == DistanceStatus::local);
+      // The reference's long double is good to 1e-19 R.
+      CHECK(std::abs(hilltop(gap, d.normal) - d.distance) < 2e-14 + 3e-19 * R);
+      // An ulp of the normal moves the volume's point by 2.2e-16 R; the points are of several operations.
+      CHECK((d.point[1] - d.point[0] - d.distance * d.normal).norm() < 1e-15 * (3 + R));
+    }
+}
+
+TEST_CASE(
     "two shapes deep in each other: the normal is the top of its hill, the points are on their bodies") {
   Random random(12);
   int deep = 0;
