@@ -172,7 +172,9 @@ class DeepFeatures {
         });
   }
   void rim(const Vector3d& middle, const Vector3d& axis) {
-    take([&] { return deepestOn(q_, RimFeature{middle, axis, q_.shape.radius}, start_, ascend_); });
+    RimFeature feature{middle, axis, q_.shape.radius};
+    if (ascend_) feature.floor = 1e-12;  // at a large R the normal may be this near the axis
+    take([&] { return deepestOn(q_, feature, start_, ascend_); });
   }
   /// A flat face with the normal `n` or `-n`. `inside` returns the distance of a point from the boundary of
   /// the known part of the face.

@@ -90,6 +90,9 @@ struct RimFeature {
   Eigen::Vector3d centre;
   Eigen::Vector3d axis;  ///< unit
   double radius;
+  /// Limits the radius of curvature: with one that is too small the ascent still moves, with an infinite one
+  /// it does not.
+  double floor = 1e-6;
   FeatureView along(const Eigen::Vector3d& n) const {
     // Projected twice, because rounding along the axis is magnified by radius / c below.
     Eigen::Vector3d side = n - n.dot(axis) * axis;
@@ -97,18 +100,13 @@ struct RimFeature {
     const double c = side.norm();
     if (!(c > 0.0)) return {centre, Eigen::Matrix3d::Zero()};
     const Eigen::Vector3d around = axis.cross(n) / c;
-    return {centre - (radius / c) * side, (radius / std::max(c, kFloor)) * around * around.transpose()};
+    return {centre - (radius / c) * side, (radius / std::max(c, floor)) * around * around.transpose()};
   }
   const Eigen::Vector3d* direction() const { return nullptr; }
   /// If the normal is near the axis, an ulp moves the point far along the rim.
   double wobble(const Eigen::Vector3d& n) const {
     return radius * std::min(1e-6, 1e-15 / (n - n.dot(axis) * axis).norm());
   }
-
- private:
-  // Limits the radius of curvature: with one that is too small the ascent still moves, with an infinite one
-  // it does not.
-  static constexpr double kFloor = 1e-6;
 };
 
 /// A whole ellipsoid: the image of the unit ball. Uses only sums of squares, which are accurate even for an
