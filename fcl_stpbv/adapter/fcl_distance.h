@@ -180,7 +180,7 @@ class PairDistance {
   PairDistance(Geometry geometry1, Geometry geometry2, MappingCounts* mapping = nullptr)
       : geometry1_(std::move(geometry1)), geometry2_(std::move(geometry2)), mapping_(mapping) {}
 
-  /// The distance at these poses; the same answer as distance().
+  /// The distance at these poses; the same answer as distance(), up to what PairCache says.
   DistanceAnswer operator()(const fcl::Transform3d& pose1, const fcl::Transform3d& pose2) {
     return distance(*geometry1_, pose1, *geometry2_, pose2, {&cache_, mapping_});
   }

@@ -88,7 +88,8 @@ struct Distance {
 
 /// State of a pair between queries, for a warm start: the next query starts near the last answer. The adapter
 /// can also fill it from the witness points of FCL's polyhedra. The caller owns it. It is optional and
-/// changes only the time of a query, never its answer.
+/// changes only the time of a query, with two exceptions: a `local` answer may be another local maximum, and
+/// where bodies just touch the status may change between `exact` and `bounded`.
 struct PairCache {
   Eigen::Vector3d normal{0, 0, 0};   ///< last normal, world frame; zero: none
   std::array<int, 2> patch{-1, -1};  ///< last patches; -1: none
