@@ -1,5 +1,5 @@
-// Meshes of every bounding volume, clouds, octrees and flat shapes as FCL has
-// them, with their triangles in long double.
+// Meshes of every bounding volume, clouds, octrees and flat shapes as FCL's geometries, with their triangles
+// in long double.
 #pragma once
 
 #include <fcl/config.h>
@@ -25,9 +25,9 @@ namespace fcl_stpbv::test {
 struct ElementKind {
   std::string name;
   std::shared_ptr<fcl::CollisionGeometryd> geometry;
-  /// Triangles of each element at a pose, by FCL's number of it; -1 for a shape.
+  /// The triangles of each element at a pose, by FCL's number of the element; -1 for a shape.
   std::function<std::map<std::intptr_t, std::vector<TriangleL>>(const Eigen::Isometry3d&)> triangles;
-  bool surface;  ///< a mesh or a tree
+  bool surface;  ///< whether it is a mesh or a tree
 };
 
 template <typename BV>
@@ -83,7 +83,7 @@ inline ElementKind treeKind() {
 }
 #endif
 
-/// All kinds, some 0.4 m across.
+/// All kinds, about 0.4 m in size.
 inline std::vector<ElementKind> elementKinds() {
   std::vector<ElementKind> all{meshKind<fcl::OBBRSSd>("OBBRSS"),
                                meshKind<fcl::RSSd>("RSS"),

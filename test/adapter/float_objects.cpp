@@ -1,4 +1,4 @@
-// Does not compile, and says why.
+// This file must not compile. The compiler's message must give the reason.
 #include "fcl_stpbv/adapter/fcl_distance.h"
 
 double ask(const fcl::CollisionObjectf& a, const fcl::CollisionObjectf& b) {

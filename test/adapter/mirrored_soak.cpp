@@ -1,5 +1,5 @@
-// Hulls and their mirror images in mirrored poses, as many as asked for: how often FCL and this library are
-// wrong. Usage: mirrored_soak [queries] [seed]
+// Hulls and their mirror images in mirrored poses: counts how often FCL and this library are wrong in a
+// number of random queries. Usage: mirrored_soak [queries] [seed]
 #include <fcl/narrowphase/distance.h>
 
 #include <cstdio>
@@ -31,7 +31,7 @@ int main(int argc, char** argv) {
 
     const DistanceAnswer d = distance(pairs.geometry(), pairs.pose(), pairs.mirror(), pairs.mirrorPose());
     if (d.status == DistanceStatus::local)
-      continue;  // the smooth bodies overlap: they exceed their polyhedra
+      continue;  // the smooth bodies, which exceed their polyhedra, overlap
     ++solved;
     answerWorst = std::max(answerWorst, d.upper - d.lower);
     if (d.status != DistanceStatus::exact || !(d.upper - d.lower <= 1e-12)) ++answerOpen;

@@ -29,7 +29,7 @@ TEST_CASE("no query on STP-BVs allocates, cold or warm, separated, deep or inval
   Random random(1);
   PairDistance pair(a, b);
   PairCaches caches;
-  caches.of(&first, &second);  // the one allocation of a pair
+  caches.of(&first, &second);  // this is a pair's only allocation
   fcl::DistanceRequestd request;
   fcl::DistanceResultd result;
   const Eigen::Isometry3d here = Eigen::Isometry3d::Identity();
@@ -103,6 +103,6 @@ TEST_CASE("a motion fits boxes in place of merged ones once, and asking whether 
     long few = 0, many = 0;
     const long coarse = taken(*other, 0.1, &few), fine = taken(*other, 1e-10, &many);
     CHECK(many > few + 10);
-    CHECK(fine <= coarse + 6);  // of the search's own lists
+    CHECK(fine <= coarse + 6);  // allocations of the search's own lists
   }
 }

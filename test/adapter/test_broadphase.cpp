@@ -1,5 +1,6 @@
 // FCL's seven broadphase managers with this library's callbacks find the nearest or deepest pair of random
-// scenes; the reference asks all pairs. Pairs left out, stops at contact, caches, pairs without an answer.
+// scenes; the reference checks all pairs. Also tests pairs left out, stops at contact, caches, and pairs
+// without an answer.
 #include <fcl/broadphase/broadphase_SSaP.h>
 #include <fcl/broadphase/broadphase_SaP.h>
 #include <fcl/broadphase/broadphase_bruteforce.h>

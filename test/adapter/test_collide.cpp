@@ -1,4 +1,4 @@
-// Contacts in FCL's words, of smooth bodies, shapes, meshes and trees.
+// Contacts in FCL's terms, of smooth bodies, shapes, meshes and trees.
 #include <fcl/broadphase/broadphase_dynamic_AABB_tree.h>
 #include <fcl/broadphase/broadphase_dynamic_AABB_tree_array.h>
 #include <fcl/geometry/shape/halfspace.h>
@@ -47,7 +47,7 @@ TEST_CASE(
   for (int i = 0; i < 400; ++i) {
     const Isometry3d pa = pose(random.rotation(), random.direction());
     Isometry3d pb = pose(random.rotation(), pa.translation() + 0.7 * random.direction());
-    // Move to within what the margins allow, so that the reference's cores stay apart.
+    // Move to a distance that the margins allow, so that the reference's cores stay apart.
     const DistanceAnswer far = distance(a, pa, b, pb);
     pb.translation() -= (far.distance + random.uniform(-0.02, 0.04)) * far.normal;
     const ReferenceDistance truth = referenceDistance(
@@ -62,7 +62,7 @@ TEST_CASE(
     }
     ++touching;
     CHECK(std::abs(found[0].penetration_depth + static_cast<double>(truth.distance)) <= 2e-15);
-    // A normal is as good as the square root of the reference's gap of distances.
+    // The error of a normal is the square root of the reference's gap of distances.
     CHECK((found[0].normal - truth.normal.cast<double>()).norm() <= 1e-7);
     CHECK((found[0].pos - (0.5 * (truth.point[0] + truth.point[1])).cast<double>()).norm() <= 1e-7);
     CHECK((found[0].o1 == &a && found[0].o2 == &b && found[0].b1 == -1 && found[0].b2 == -1));
@@ -109,7 +109,7 @@ TEST_CASE("meshes and trees have one contact for each two elements that meet, in
   for (const ElementKind& first : kinds)
     for (const ElementKind& second : kinds) {
       if (!first.surface && !second.surface) continue;
-      // Cells and boxes are solid, which triangles of their sides do not tell.
+      // Cells and boxes are solid, which the triangles of their sides do not show.
       if (first.name == "octree" || second.name == "octree" || first.name == "box" || second.name == "box")
         continue;
       CAPTURE(first.name, second.name);

@@ -31,7 +31,7 @@ fcl::ContinuousCollisionRequestd requestOf(fcl::CCDMotionType type, double toler
   return fcl::ContinuousCollisionRequestd(10, tolerance, type);
 }
 
-/// A motion of FCL's, to be sampled. Shared, not unique: deleting one through its base frees what `new` made.
+/// A motion of FCL, to be sampled. Shared, not unique, because FCL's base class has no virtual destructor.
 std::shared_ptr<fcl::MotionBased> fclMotion(const Isometry3d& begin, const Isometry3d& end,
                                             fcl::CCDMotionType type) {
   if (type == fcl::CCDM_TRANS) return std::make_shared<fcl::TranslationMotion<double>>(begin, end);
@@ -162,7 +162,7 @@ TEST_CASE(
   for (const ElementKind& first : kinds)
     for (const ElementKind& second : kinds)
       for (const fcl::CCDMotionType type : {fcl::CCDM_TRANS, fcl::CCDM_LINEAR, fcl::CCDM_SCREW}) {
-        if (second.surface && random.below(4) > 0) continue;  // for time
+        if (second.surface && random.below(4) > 0) continue;  // to save time
         CAPTURE(first.name, second.name, type);
         Isometry3d ends[4];
         for (Isometry3d& end : ends) end = pose(random.rotation(), 0.7 * random.direction());
@@ -211,10 +211,10 @@ TEST_CASE("touching, starting in contact, a thin wall, splines and broken poses"
   CHECK(std::abs(t - (1 - 0.1 - 5e-4) / 4) <= 1e-6);
   CHECK(ask(crate, at(0.05, 0, 0), at(3, 0, 0), wall, at(0, 0, 0), fcl::CCDM_TRANS) == 0);
   CHECK(result.is_collide);
-  // Away from a near wall: the normal tells at once.
+  // Away from a near wall: the normal decides at once.
   CHECK(ask(crate, at(0.11, 0, 0), at(3, 0, 0), wall, at(0, 0, 0), fcl::CCDM_LINEAR) == 1);
   CHECK_FALSE(result.is_collide);
-  // Along the wall at a micrometre.
+  // Along the wall at a distance of a micrometre.
   CHECK(ask(crate, at(0.1005 + 1e-6, -1, 0), at(0.1005 + 1e-6, 1, 0), wall, at(0, 0, 0), fcl::CCDM_LINEAR) ==
         1);
   CHECK_FALSE(result.is_collide);
@@ -240,7 +240,7 @@ TEST_CASE("objects that carry their motion, and a screw without a turn, go where
   const auto still = std::make_shared<fcl::TranslationMotion<double>>(at(0.65, 0, 0), at(0.65, 0, 0));
   const fcl::ContinuousCollisionObjectd a(crate, far), b(crate, still);
   fcl::ContinuousCollisionResultd result;
-  // FCL's own screw goes 0.25 m only, the way times its length.
+  // FCL's own screw moves only 0.25 m, the way times its length.
   CHECK(std::abs(fcl_stpbv::collide(&a, &b, requestOf(fcl::CCDM_SCREW, 1e-6), result) - 0.9) <= 1e-6);
   CHECK(result.is_collide);
 }
@@ -278,7 +278,7 @@ TEST_CASE("a tree whose cells are all free is met by no motion") {
     CHECK(std::abs(met - (wall ? 0.45 : 1)) <= 1e-7);
     CHECK(fcl_stpbv::continuousCollide(&ball, at(-1, 0.45, 0), at(1, 0.45, 0), &tree, at(0, 0, 0),
                                        at(0, 0, 0), requestOf(fcl::CCDM_TRANS), result) == met);
-    // No motion is clear of a body that is none, nor one that is none.
+    // No motion is clear of an invalid body, and an invalid body's motion is not clear.
     const fcl::Sphered none(-1.0);
     for (const auto& [body, end] : {std::pair<const fcl::Sphered*, double>{&none, 1.0}, {&ball, NAN}}) {
       CHECK(fcl_stpbv::continuousCollide(&tree, at(0, 0, 0), at(0, 0, 0), body, at(-1, 0.45, 0),
@@ -290,7 +290,7 @@ TEST_CASE("a tree whose cells are all free is met by no motion") {
 #endif
 
 TEST_CASE("a motion derived from FCL's, which may go another way, has no answer") {
-  /// Between its ends it goes round by y.
+  /// A motion that makes a detour in y between its ends.
   struct Detour : fcl::InterpMotion<double> {
     Detour(const Isometry3d& begin, const Isometry3d& end)
         : fcl::InterpMotion<double>(Eigen::Matrix3d(begin.linear()), begin.translation(),
@@ -345,14 +345,14 @@ TEST_CASE("a motion ends at its end pose, by whatever turn the two poses differ"
         REQUIRE(steadyMotion(begin, end, type, motion));
         CHECK(motion.at(0).matrix() == begin.matrix());
         CHECK((motion.at(1).matrix() - end.matrix()).norm() <= 1e-14);
-        // The velocity is the pose's derivative, also where the axis is 1e10 m away.
+        // The velocity is the derivative of the pose, even if the axis is 1e10 m away.
         const double t = random.uniform(0.1, 0.9), h = 1e-5;
         Vector3d velocity;
         motion.at(t, &velocity);
         const Vector3d slope = (motion.at(t + h).translation() - motion.at(t - h).translation()) / (2 * h);
         CHECK((velocity - slope).norm() <= 1e-8);
       }
-  // By hand: three times around the z axis, 1 m away, and up.
+  // Computed by hand: three times around the z axis, 1 m away, and up.
   const SteadyMotion spiral{at(1, 0, 0), {0, 0, 2}, {0, 6 * M_PI, 0}, {0, 0, 6 * M_PI}};
   CHECK((spiral.at(0.25).translation() - Vector3d(0, -1, 0.5)).norm() <= 1e-15);
   CHECK((spiral.at(1).translation() - Vector3d(1, 0, 2)).norm() <= 1e-14);
@@ -360,7 +360,7 @@ TEST_CASE("a motion ends at its end pose, by whatever turn the two poses differ"
 
 TEST_CASE("half a turn goes the way round that FCL's does, also between poses of few digits") {
   Random random(17);
-  // As a float keeps a number, as seven digits do, and in full.
+  // A number as a float keeps it, as seven digits keep it, and in full.
   const auto kept = [](double x, int how) {
     return how == 0 ? static_cast<double>(static_cast<float>(x)) : how == 1 ? 1e-7 * std::round(1e7 * x) : x;
   };
@@ -375,10 +375,10 @@ TEST_CASE("half a turn goes the way round that FCL's does, also between poses of
       SteadyMotion object, poses;
       REQUIRE(steadyMotion(*fclObject, object));
       REQUIRE(steadyMotion(begin, end, type, poses));
-      const double digits = i % 3 == 2 ? 1e-12 : 1e-6;  // that the poses have
+      const double digits = i % 3 == 2 ? 1e-12 : 1e-6;  // precision of the poses
       for (const SteadyMotion* motion : {&object, &poses}) {
         INFO(i << " " << type);
-        // A quarter of a turn on.
+        // At a quarter of a turn.
         CHECK((motion->at(0.5).matrix() - posed(*fclObject, 0.5).matrix()).norm() < 10 * digits);
         CHECK((motion->at(1).matrix() - end.matrix()).norm() < 10 * digits);
       }
@@ -396,7 +396,7 @@ TEST_CASE("a screw by next to no turn is as free, and meets as soon, as the stra
       return fcl_stpbv::continuousCollide(&point, at(-1, y, 0), pose(turn, {1, y, 0}), &ball, at(0, 0, 0),
                                           at(0, 0, 0), requestOf(fcl::CCDM_SCREW, 1e-10), result);
     };
-    // It bends by angle / 4 m: past the ball with 1e-6 m to spare, and head on, where it meets at 0.4.
+    // Its path bends by angle / 4 m. It passes the ball with 1e-6 m to spare, or meets it head on at 0.4.
     fcl::ContinuousCollisionResultd past, met;
     CHECK(ask(0.2 + 1e-6, past) == 1);
     CHECK_FALSE(past.is_collide);
@@ -408,7 +408,7 @@ TEST_CASE("a screw by next to no turn is as free, and meets as soon, as the stra
 }
 
 TEST_CASE("an undecided motion is a collision at the time until which it is proven free") {
-  // A point that goes through a plane is in it at no time that is a number.
+  // A point that moves through a plane is in the plane at a time that is no double.
   const StpBvGeometry point(StpBv::build({{0, 0, 0}}, {0, 1}));
   const fcl::Planed plane(Vector3d::UnitZ(), 0.0);
   const Isometry3d from = at(0, 0, 0.3), to = at(0.1, 0, -std::sqrt(0.5));

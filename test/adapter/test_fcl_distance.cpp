@@ -1,6 +1,6 @@
-// fcl_stpbv::distance in place of FCL's. Distances against the known ones of sharp polyhedra, gradients
-// against central differences, swapped and mirrored pairs against each other; what FCL's result holds; what
-// pairs without an STP-BV and broken poses are told.
+// fcl_stpbv::distance instead of FCL's. Tests distances against the known ones of sharp polyhedra, gradients
+// against central differences, and swapped and mirrored pairs against each other. Also tests the contents of
+// FCL's result, and the answers for pairs without an STP-BV and for invalid poses.
 #include <fcl/geometry/shape/box.h>
 #include <fcl/geometry/shape/halfspace.h>
 #include <fcl/geometry/shape/plane.h>
@@ -31,7 +31,7 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// A result as it comes out of a penetrating FCL query on other objects.
+/// A result as a penetrating FCL query on other objects leaves it.
 fcl::DistanceResultd dirtyResult() {
   fcl::DistanceResultd result;
   result.min_distance = -1;
@@ -140,19 +140,19 @@ TEST_CASE("the FCL result is filled afresh, whatever it held before") {
     fcl::DistanceResultd result = dirtyResult();
     const double d = fcl_stpbv::distance(&a, &b, request, result);
     CHECK(d == result.min_distance);
-    CHECK(d < 0.28);  // faces bulge by up to 2.2 mm over the sharp cubes' 0.3 m less two margins
+    CHECK(d < 0.28);  // faces bulge by up to 2.2 mm over the sharp cubes' 0.3 m minus two margins
     CHECK(d > 0.276);
     CHECK(result.o1 == a.collisionGeometry().get());
     CHECK(result.o2 == b.collisionGeometry().get());
-    CHECK(result.b1 == -1);  // FCL's NONE, which it declares and never defines
+    CHECK(result.b1 == -1);  // FCL's NONE, which FCL declares but never defines
     CHECK(result.b2 == -1);
     CHECK((result.nearest_points[1] - result.nearest_points[0]).norm() == Approx(d).margin(1e-14));
 
-    // A farther pair after a nearer one: FCL would keep the nearer.
+    // A farther pair after a nearer one: FCL would keep the nearer one.
     CHECK(fcl_stpbv::distance(&a, &c, request, result) == result.min_distance);
     CHECK(result.min_distance > d + 0.4);
 
-    // The geometry overload says the same.
+    // The overload for geometries gives the same.
     fcl::DistanceResultd again = dirtyResult();
     fcl_stpbv::distance(a.collisionGeometry().get(), a.getTransform(), c.collisionGeometry().get(),
                         c.getTransform(), request, again);
@@ -191,7 +191,7 @@ TEST_CASE("a pair without an STP-BV gets an answer marked as not continuous") {
     CHECK(d.status == DistanceStatus::exact);
     CHECK(d.distance == Approx(-0.1).margin(1e-15));
     CHECK((d.normal - Vector3d::UnitX()).norm() <= 1e-15);
-    fcl::DistanceRequestd request(true, true);  // signed: FCL itself may abort here
+    fcl::DistanceRequestd request(true, true);  // signed; FCL itself may abort here
     fcl::DistanceResultd result = dirtyResult();
     CHECK(fcl_stpbv::distance(crate.get(), at(0, 0, 0), crate.get(), at(0.1, 0.02, 0.01), request, result) ==
           d.distance);
@@ -237,7 +237,7 @@ TEST_CASE("a pair without an STP-BV gets an answer marked as not continuous") {
     CHECK(d.geometry[0] == mesh.get());
     CHECK(e.geometry[1] == mesh.get());
 
-    // The points are in the world's frame, for balls too.
+    // The points are in the world's frame, also for balls.
     const DistanceAnswer f = distance(*mesh, at(3, 0, 0), *ball, at(3.5, 0, 0));
     CHECK(std::abs(f.distance - 0.4) <= 1e-15);
     CHECK((f.normal - Vector3d::UnitX()).norm() <= 1e-15);
@@ -298,7 +298,7 @@ TEST_CASE("the answer is the same from the line of centres and from FCL's witnes
                        poseB = pose(random.rotation(), random.uniform(0.02, 1.2) * random.direction());
       const DistanceAnswer d = distance(*a, poseA, *b, poseB),
                            e = distance(*a, poseA, *b, poseB, fromWitness);
-      // Each within its bounds; apart, these are nothing but rounding.
+      // Each is within the other's bounds. For separated bodies the bounds are only rounding apart.
       CHECK(d.lower <= e.upper);
       CHECK(e.lower <= d.upper);
       if (d.distance > 0) CHECK(std::abs(d.distance - e.distance) <= 1e-14);
@@ -322,7 +322,8 @@ TEST_CASE("degenerate volumes are bodies like any other") {
       const auto a = geometryOf(cloudA), b = geometryOf(cloudB);
       const DistanceAnswer d = distance(*a, at(0, 0, 0), *b, at(0, 0.02, 0.5));
       CHECK(d.status == DistanceStatus::exact);
-      CHECK(d.upper - d.lower <= 1e-14 + 3 * kGapRounding);  // rounded outward, for 1 m in all
+      CHECK(d.upper - d.lower <=
+            1e-14 + 3 * kGapRounding);  // rounded outward, for a sum of coordinates of 1 m
       CHECK(d.distance < 0.4805);
       CHECK(d.distance > 0.47);
     }

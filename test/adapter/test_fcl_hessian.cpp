@@ -45,8 +45,8 @@ struct Compared {
   int poses = 0, boundaries = 0, none = 0;
 };
 
-// The Hessian at one pose against differences of the gradient; poses where the one-sided differences part, or
-// another element takes over, are counted and left out.
+// Compares the Hessian at one pose with differences of the gradient. Poses where the one-sided differences
+// disagree, or where another element becomes nearest, are counted and left out.
 void compare(const fcl::CollisionGeometryd& a, const Isometry3d& poseA, const fcl::CollisionGeometryd& b,
              const Isometry3d& poseB, Compared& all) {
   constexpr double kStep = 4e-6;
@@ -70,7 +70,7 @@ void compare(const fcl::CollisionGeometryd& a, const Isometry3d& poseA, const fc
     }
     second.col(k) = (8 * (g[3] - g[1]) - (g[4] - g[0])) / (12 * kStep);
     const auto ahead = (g[4] - g[2]) / (2 * kStep), behind = (g[2] - g[0]) / (2 * kStep);
-    // Third derivatives over the step are a thousandth of this.
+    // Third derivatives times the step are a thousandth of this.
     smooth = smooth && (ahead - behind).norm() <= 1e-2 * (1 + second.col(k).norm());
   }
   if (!smooth) {
@@ -105,7 +105,7 @@ TEST_CASE("the Hessian through the drop-in is the change of its gradient, for sh
     for (int i = 0; i < 60; ++i) {
       const Isometry3d poseB = pose(random.rotation(), 0.5 * random.direction());
       Isometry3d poseA = poseB * pose(random.rotation(), random.uniform(0.5, 1.2) * random.direction());
-      // Down to a gap of 5 cm, or of the slightest penetration.
+      // Move to a gap of 5 cm, or to a very slight penetration.
       const double gap = i % 3 == 0 ? -0.01 : 0.05;
       for (int round = 0; round < 3; ++round) {
         const DistanceAnswer d = distance(*body, poseA, *other, poseB);
@@ -116,8 +116,9 @@ TEST_CASE("the Hessian through the drop-in is the change of its gradient, for sh
     }
     INFO("type " << other->getNodeType() << ": " << all.poses << " compared, " << all.boundaries
                  << " on a boundary, " << all.none << " without");
-    CHECK(all.worst <
-          1e-7);  // rounding of the gradient, some 1e-15, over the step, and the step to the fourth
+    CHECK(
+        all.worst <
+        1e-7);  // the gradient's rounding (about 1e-15) divided by the step, and the step to the fourth power
     CHECK(all.poses >= 40);
   }
 }

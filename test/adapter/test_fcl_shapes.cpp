@@ -119,10 +119,11 @@ TEST_CASE("an octree gives the minimum over its occupied cells") {
     std::sort(all.begin(), all.end());
     const double least = all[0];
     const DistanceAnswer d = distance(*body, at, cells, ground);
-    // Compilers draw the arguments of pose() in different orders; some scenes are deeper than the margin.
+    // Compilers evaluate the arguments of pose() in different orders, so some scenes are deeper than the
+    // margin.
     CHECK(d.status == (least > -body->volume().radii().r ? DistanceStatus::exact : DistanceStatus::local));
     CHECK(std::abs(d.distance - least) <= 1e-12);
-    fcl::AABBd cell;  // FCL finds the cell again by its id
+    fcl::AABBd cell;  // FCL finds the cell by its id
     CHECK(cells.getNodeByQueryCellId(d.element[1], ground.inverse() * d.points[1], &cell) != nullptr);
     CHECK(std::abs(d.runnerUp - all[1]) <= 1e-12);
     CHECK(distance(cells, ground, *body, at).distance == d.distance);
@@ -131,7 +132,7 @@ TEST_CASE("an octree gives the minimum over its occupied cells") {
 #endif
 
 TEST_CASE("two shapes without an STP-BV are measured exactly while they are apart") {
-  // A sphere is also the STP-BV of one point, which has a path of its own to check against.
+  // A sphere is also the STP-BV of one point, which is computed in another way and can be compared.
   const fcl::Sphered ball(0.1);
   const StpBvGeometry point(StpBv::build({{0, 0, 0}}, {0.1, 10}));
   const std::vector<std::shared_ptr<fcl::CollisionGeometryd>> shapes{
@@ -149,7 +150,8 @@ TEST_CASE("two shapes without an STP-BV are measured exactly while they are apar
       CHECK(std::abs(d.distance - truth.distance) <= 1e-12);
       CHECK(d.lower <= truth.distance + 1e-14);
       CHECK(d.upper >= truth.distance - 1e-14);
-      // The ball's path has a margin of 0.1 m; without one the normal is rounding over the distance.
+      // The ball's path has a margin of 0.1 m. Without a margin, the normal's error would be rounding divided
+      // by the distance.
       CHECK((d.normal - truth.normal).norm() <= 1e-13);
       CHECK_FALSE(d.continuous);
       CHECK(d.status == DistanceStatus::exact);
@@ -174,8 +176,8 @@ TEST_CASE("nothing to measure to has no answer") {
 }
 
 TEST_CASE("a plane whose normal is a little longer than 1 stands where normal.x = offset, or has no answer") {
-  // A million metres out, where a part of 4e-7 of the offset is 0.4 m. FCL makes normals unit; its fields are
-  // open.
+  // A million metres from the origin, where 4e-7 of the offset is 0.4 m. FCL's constructor normalises
+  // normals, but its fields are public.
   const double offset = 1e6;
   const Isometry3d here = Isometry3d::Identity();
   for (const double length : {1 + 4e-7, 1 - 4e-7, 1 + 1e-12, 1 + 1e-3, 0.0}) {

@@ -1,4 +1,4 @@
-// How deep two shapes without an STP-BV are in each other, against closed forms and brute force.
+// The penetration depth of two shapes without an STP-BV, compared with closed forms and brute force.
 #include <fcl/geometry/shape/box.h>
 #include <fcl/geometry/shape/capsule.h>
 #include <fcl/geometry/shape/cone.h>
@@ -61,7 +61,8 @@ double gapAlong(const Shape& a, const Isometry3d& poseA, const Shape& b, const I
   return n.dot(q - p) - a.margin - b.margin;
 }
 
-/// `far`: how far from the world's origin the bodies are (m), whose coordinates round by that much more.
+/// `far`: distance of the bodies from the world's origin (m), with which the rounding of their coordinates
+/// grows.
 void checkConsistent(const DistanceAnswer& d, const DistanceAnswer& e, double far = 1) {
   CHECK(d.status != DistanceStatus::invalid);
   CHECK((std::isfinite(d.distance) && d.points[0].allFinite() && d.normal.allFinite()));
@@ -92,7 +93,7 @@ TEST_CASE("overlapping boxes: the widest gap over the separating axes") {
     ++overlapping;
     const DistanceAnswer d = distance(first, a, second, b), e = distance(second, b, first, a);
     checkConsistent(d, e);
-    // Poses 1 m from the origin round to some 1e-16 m each, amplified by flat faces of the difference.
+    // Poses 1 m from the origin are rounded by about 1e-16 m each, amplified by flat faces of the difference.
     CHECK(d.lower <= truth + 1e-14);
     CHECK(d.upper >= truth - 1e-14);
     if (d.status != DistanceStatus::exact) continue;
@@ -131,7 +132,7 @@ TEST_CASE("balls, capsules, half spaces and planes overlap by their closed forms
     CHECK(std::abs(g.distance - (below - 0.2)) <= 1e-14);
     CHECK(std::abs(p.distance - (std::abs(below) - 0.2)) <= 1e-14);
   }
-  // Axes that cross: out along their common normal, past both radii.
+  // Axes that cross: the way out is along their common normal, past both radii.
   Eigen::Matrix3d turned = Eigen::AngleAxisd(1.0, Vector3d::UnitX()).toRotationMatrix();
   for (const double apart : {0.0, 1e-9, 0.05}) {
     const Isometry3d here = Isometry3d::Identity(), there = pose(turned, {apart, 0, 0});
@@ -199,7 +200,7 @@ TEST_CASE("a ball in a cone, a cylinder or a spheroid is exact, on the axis, bes
     CHECK(std::abs(c.distance + std::min(z + 0.15, side) + 0.1) <= 2e-15);
     CHECK(std::abs(d.distance + std::min(0.3 - std::abs(z), 0.1 - off) + 0.1) <= 2e-15);
 
-    // A spheroid about y: its nearest point by a scan of the meridian, halved down to rounding.
+    // A spheroid about y: its nearest point by a scan of the meridian, refined by halving down to rounding.
     const Isometry3d e = pose(random.rotation(), a * Vector3d(x.x(), x.z(), x.y()));
     const DistanceAnswer s = distance(spheroid, a, ball, e);
     checkConsistent(s, distance(ball, e, spheroid, a));
@@ -239,12 +240,12 @@ TEST_CASE(
           if (s.kind == ShapeKind::segment && t.kind == ShapeKind::segment)
             continue;  // cores without a volume
           if (tilt == 0) CHECK(d.status == DistanceStatus::exact);
-          // Rounded outward, for sizes and distances of 2 m in all.
+          // Rounded outward, for a sum of sizes and distances of 2 m.
           CHECK(d.upper - d.lower <= 2e-15 + 2 * tilt + 2 * kGapRounding * 2);
           CHECK(std::abs(gapAlong(s, a, t, b, d.normal) - d.distance) <= 2e-15);
           double best = -1;
           for (int k = 0; k < 20000; ++k) best = std::max(best, gapAlong(s, a, t, b, random.direction()));
-          for (int k = 0; k < 20000; ++k)  // close by, where a better one would be
+          for (int k = 0; k < 20000; ++k)  // close to the normal, where a better one would be
             best = std::max(best, gapAlong(s, a, t, b, (d.normal + 0.01 * random.direction()).normalized()));
           CHECK(best <= d.upper + 1e-15);
           ++compared;

@@ -1,6 +1,6 @@
-// An STP-BV as FCL's geometry. Its polyhedron is convex, closed and of the volume's vertices; extreme
-// vertices are those found by looking at all; its box touches the smooth surface; its features name patches;
-// plain FCL takes it.
+// An STP-BV as FCL's geometry. Its polyhedron is convex, closed and consists of the volume's vertices.
+// Extreme vertices are compared with a search over all vertices. Its box touches the smooth surface. Its
+// features name patches. Plain FCL accepts it.
 #include <fcl/narrowphase/collision.h>
 #include <fcl/narrowphase/distance.h>
 
@@ -31,7 +31,7 @@ std::vector<Cloud> degenerateShapes() {
           {{0.1, 0.1, 0.2}, {-0.1, 0.1, 0.2}, {-0.1, -0.1, 0.2}, {0.1, -0.1, 0.2}}};
 }
 
-/// Highest vertex along `n`, by looking at all of them.
+/// Height of the highest vertex along `n`, by a search over all vertices.
 double heightOf(const HullGraph& hull, const Vector3d& n) {
   double best = -1e300;
   for (int v = 0; v < hull.vertexCount(); ++v) best = std::max(best, n.dot(hull.point(v)));
@@ -117,7 +117,8 @@ TEST_CASE("features of the hull name patches of the same name") {
       REQUIRE(patch >= 0);
       REQUIRE(patch < volume.patchCount());
       if (volume.kind(patch) != PatchKind::edge) continue;
-      // Parallel to the edge it is named after: its circle lies across it.
+      // The patch's axis must be parallel to the edge it is named after, because its circle lies across the
+      // edge.
       const auto [a, b] = hull.edges()[static_cast<std::size_t>(e)];
       const Vector3d u = (hull.point(b) - hull.point(a)).normalized();
       if (std::abs(std::abs(u.dot(volume.patch(patch).axis)) - 1) <= 1e-12) ++same;

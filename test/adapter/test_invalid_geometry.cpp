@@ -1,5 +1,5 @@
-// Sizes, corners and poses that describe no body: `invalid` for every pair of types alike, and
-// libccd's assertions are never reached.
+// Sizes, corners and poses that describe no body must give `invalid` for every pair of types, and must not
+// reach libccd's assertions.
 #include <fcl/geometry/bvh/BVH_model.h>
 #include <fcl/geometry/geometric_shape_to_BVH_model.h>
 #include <fcl/geometry/shape/box.h>
@@ -51,8 +51,9 @@ Geometry meshOfBox(double side) {
   return mesh;
 }
 
-/// Bumpy ground of triangles or points with one number of one corner set to `x`. Built by FCL, whose boxes
-/// then hide it or not, or changed in place, where they know nothing of it.
+/// Bumpy ground of triangles or points with one coordinate of one corner set to `x`. It is either built by
+/// FCL, whose boxes then may or may not hide the value, or changed in place, so that the boxes do not contain
+/// it.
 template <typename BV>
 std::shared_ptr<fcl::BVHModel<BV>> groundWith(double x, int corner, bool built, bool cloud = false) {
   const auto ground = bumpyGround<fcl::AABBd>(6, 0.1);
@@ -84,7 +85,8 @@ void checkInvalid(const fcl::CollisionGeometryd& a, const Isometry3d& poseA, con
   CHECK_FALSE(isFartherThan(0.0, a, poseA, b, poseB));
 }
 
-/// That no question about the pair is answered as if it were known to be clear, or where it meets.
+/// Checks that no query about the pair gives an answer as if the pair were clear or its place of contact were
+/// known.
 void checkUnknown(const fcl::CollisionGeometryd& a, const Isometry3d& poseA, const fcl::CollisionGeometryd& b,
                   const Isometry3d& poseB) {
   CHECK(distance(a, poseA, b, poseB).status == DistanceStatus::invalid);
@@ -112,7 +114,7 @@ TEST_CASE("A shape with a size that is no number, infinite or negative has no di
   for (const double x : {std::numeric_limits<double>::quiet_NaN(), infinity, -infinity, -0.1})
     for (const Geometry& bad : shapesOfSize(x)) {
       if (x == -0.1 && bad->getNodeType() == fcl::GEOM_TRIANGLE)
-        continue;  // a corner below its frame's origin
+        continue;  // a corner below the frame's origin
       for (const Geometry& other : soundGeometries()) {
         CAPTURE(x, bad->getNodeType(), other->getNodeType());
         checkInvalid(*bad, Isometry3d::Identity(), *other, there);
@@ -129,7 +131,7 @@ TEST_CASE("A mesh with a corner that is no number, wherever it is, has no answer
   int asked = 0;
   for (const double x : {std::numeric_limits<double>::quiet_NaN(), infinity, -infinity, 1e200})
     for (const int corner :
-         {0, 1, 2, 17, 24, 46, 47, 48})  // of 49: also the last ones, which fill no register
+         {0, 1, 2, 17, 24, 46, 47, 48})  // of 49; also the last ones, which do not fill a register
       for (const Geometry& bad : {Geometry(groundWith<fcl::OBBRSSd>(x, corner, false)),
                                   Geometry(groundWith<fcl::RSSd>(x, corner, false, true)),
                                   Geometry(groundWith<fcl::AABBd>(x, corner, true)),
@@ -137,7 +139,7 @@ TEST_CASE("A mesh with a corner that is no number, wherever it is, has no answer
         CAPTURE(x, corner, bad->getNodeType());
         CHECK_FALSE(hasFiniteCorners(*bad));
         const Geometry& other = others[static_cast<std::size_t>(++asked) % others.size()];
-        // Upon it, and where the boxes alone would tell.
+        // On the ground, and where the boxes alone would decide.
         for (const Vector3d& place : {Vector3d(0.1, 0.2, 0.05), Vector3d(0.3, 0, 4)}) {
           const Isometry3d there = pose(Eigen::Matrix3d::Identity(), place);
           CAPTURE(other->getNodeType(), place.transpose());
@@ -198,7 +200,7 @@ TEST_CASE(
     motion.linear = -random.uniform(0, 0.3) * motion.begin.translation();
     motion.angular = random.uniform(0, 1) * random.direction();
     const auto gap = [&](double t) { return distance(bar, motion.at(t), wall, at(0, 0, 0)); };
-    // A margin that it comes within at its very end.
+    // A margin that is reached only at the very end of the motion.
     const double margin = gap(1).upper + 1e-9;
     if (!(gap(0.99).distance > margin && gap(0).distance > margin)) continue;
     ++met;

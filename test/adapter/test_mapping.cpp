@@ -1,5 +1,5 @@
-// The paper's mapping from closest features of polyhedra to patches (IV.B). How often it names the patches of
-// the solver's answer, for bodies near each other and far apart; overlapping ones have nothing to map.
+// The paper's mapping from closest features of polyhedra to patches (IV.B): how often it names the patches of
+// the solver's answer, for bodies near each other and far apart. Overlapping bodies have no features to map.
 #include <catch2/catch.hpp>
 
 #include "fcl_stpbv/adapter/feature_map.h"
@@ -11,7 +11,7 @@ using namespace fcl_stpbv::test;
 
 namespace {
 
-/// Maps features of random pairs, centres `near` to `far` enclosing radii apart, and counts.
+/// Maps features of random pairs, with centres `near` to `far` enclosing radii apart, and counts the results.
 MappingCounts countOver(const Cloud& cloud, double near, double far, int queries) {
   const StpBvGeometry g(StpBv::build(cloud, {0.01, 10.0}));
   const double radius = g.volume().enclosingRadius();

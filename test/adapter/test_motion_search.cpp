@@ -11,8 +11,8 @@ using namespace fcl_stpbv::detail;
 
 namespace {
 
-/// Pairs whose distances change by at most 1 in a unit of time; covers are `part` of what that allows after
-/// `slack` is given away.
+/// Pairs whose distances change by at most 1 per unit of time. Covers are a share `part` of what that allows,
+/// after `slack` is subtracted.
 struct Functions {
   std::vector<std::function<double(double)>> distance;
   double part = 1;
@@ -37,15 +37,15 @@ MotionBracket search(Functions scene, double tolerance) {
 }  // namespace
 
 TEST_CASE("a time too short to be cut that two covers leave between them is looked at") {
-  // The first look, at the middle, leaves 1e-13 at both ends.
+  // The first examined time, the middle, leaves 1e-13 at both ends.
   const MotionBracket found = search({{[](double) { return 0.5 - 1e-13; }}}, 1e-4);
   CHECK(found.verdict == MotionVerdict::free);
   CHECK(found.until == 1);
 }
 
 TEST_CASE("a contact is that of its pair, whatever was looked at since it was seen") {
-  // The second pair meets at 0.5, where the search looks first. Then the first pair comes within 1e-9 at
-  // 0.13, which takes looks at the ends of times.
+  // The second pair meets at 0.5, which the search examines first. Then the first pair comes within 1e-9 at
+  // 0.13, for which the search must examine ends of intervals.
   const MotionBracket found =
       search({{[](double t) { return 1e-9 + 0.9 * std::abs(t - 0.13); },
                [](double t) { return t == 0.5 ? 0.0 : 0.5 * std::abs(t - 0.5) + 0.1; }}},
@@ -63,7 +63,7 @@ TEST_CASE("a contact that was seen stands where the covers about it say that the
 }
 
 TEST_CASE("what grazes is undecided, and free until shortly before") {
-  // Of what the distance allows a cover gives something away, as those of bodies do for rounding.
+  // Covers are smaller than the distance allows, as those of bodies are because of rounding.
   const auto graze = [](double t) { return std::abs(t - 1.0 / 3); };
   const MotionBracket found = search({{[](double) { return 0.2; }, graze}, 0.99}, 1e-4);
   CHECK(found.verdict == MotionVerdict::undecided);
@@ -73,7 +73,7 @@ TEST_CASE("what grazes is undecided, and free until shortly before") {
 }
 
 TEST_CASE("a contact just after a time at which rounding may hide it is one, and bracketed") {
-  // At 0.5, where the search looks first, the pair is apart by less than is given away for rounding.
+  // At 0.5, which the search examines first, the pair is apart by less than the allowance for rounding.
   for (const double tolerance : {1e-11, 1e-6, 1e-4, 0.3}) {
     CAPTURE(tolerance);
     const double truth = 0.5 + 1e-13;
@@ -95,7 +95,7 @@ TEST_CASE("a contact is bracketed to 1e-12 whatever smaller tolerance is asked f
 }
 
 TEST_CASE("many pairs may take more looks than few") {
-  // A pair at this distance takes some hundreds of looks.
+  // With this distance, the search must examine some hundreds of times.
   const std::function<double(double)> slow = [](double) { return 1.0 / 400; };
   MotionRequest request;
   request.mostQueries = 10;

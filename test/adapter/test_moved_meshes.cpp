@@ -1,6 +1,6 @@
-// What FCL leaves behind that its types do not show: boxes merged after a mesh's vertices have moved, meshes
-// half built, clouds with room for triangles, cells that lie far from their tree's origin, motions about a
-// point that nobody has set.
+// States of FCL's objects that their types do not show: boxes merged after a mesh's vertices have moved,
+// meshes built half, clouds with room for triangles, cells far from their tree's origin, and motions about a
+// point that was never set.
 #include <fcl/config.h>
 #include <fcl/geometry/bvh/BVH_model.h>
 #include <fcl/geometry/geometric_shape_to_BVH_model.h>
@@ -91,7 +91,7 @@ TEMPLATE_TEST_CASE("a mesh whose vertices FCL has moved is met wherever it is", 
         for (const Vector3d& corner : moved) {
           const Isometry3d there = pose(Eigen::Matrix3d::Identity(), corner);
           const DistanceAnswer d = distance(*mesh, Isometry3d::Identity(), ball, there);
-          CHECK(d.distance <= -0.01 + 1e-15);  // as deep as the ball is, or deeper in another triangle
+          CHECK(d.distance <= -0.01 + 1e-15);  // the ball's depth, or more in another triangle
           CHECK(d.lower <= -0.01);
           CHECK(touch(*mesh, ball, there));
           CHECK_FALSE(isFartherThan(0, *mesh, Isometry3d::Identity(), ball, there));
@@ -197,7 +197,7 @@ TEMPLATE_TEST_CASE("boxes fitted to a moved mesh lead to the few triangles near 
     open.insert(open.end(), child.begin(), child.begin() + children);
   }
   CHECK(looked < mesh->num_tris / 10);
-  for (int i = 0; i < mesh->num_tris; ++i)  // the six around the corner among them
+  for (int i = 0; i < mesh->num_tris; ++i)  // the six triangles around the corner are among them
     for (int k = 0; k < 3; ++k)
       if (mesh->tri_indices[i][k] == moved.size() / 2)
         CHECK(std::find(found.begin(), found.end(), i) != found.end());
@@ -215,8 +215,8 @@ TEMPLATE_TEST_CASE("a cloud that was begun with room for triangles is its points
     std::vector<Vector3d> points;
     for (std::size_t i = 0; i < count; ++i) points.push_back(random.uniform(0, 1) * random.direction());
     fcl::BVHModel<TestType> cloud;
-    // FCL fits boxes that are turned to the triangles that are not there, whatever the memory holds: these
-    // clouds are given the array afterwards.
+    // FCL fits rotated boxes to triangles that do not exist, with whatever is in the memory. So these clouds
+    // get the array afterwards.
     cloud.beginModel(goesByPoints ? 8 : 0, static_cast<int>(count));
     for (const Vector3d& p : points) cloud.addVertex(p);
     cloud.endModel();
@@ -258,7 +258,7 @@ TEST_CASE("a cell far from its tree's origin is never called clear by its roundi
       tree->updateNode(cell, true);
       const fcl::OcTreed cells(tree);
       const Isometry3d at = pose(random.rotation(), random.direction());
-      const Matrix3L rotation = nearestRotation(at.linear());  // which the pose stands for
+      const Matrix3L rotation = nearestRotation(at.linear());  // the exact rotation that the pose stands for
       const Vector3L centre =
           rotation * Vector3L(cell.x(), cell.y(), cell.z()) + at.translation().cast<long double>();
       const Vector3L x = rotation.col(0);
@@ -266,7 +266,7 @@ TEST_CASE("a cell far from its tree's origin is never called clear by its roundi
       const Isometry3d there =
           pose(Eigen::Matrix3d::Identity(), (centre + (0.625L - depth) * x).cast<double>());
       const long double gap = x.dot(Vector3L(there.translation().cast<long double>() - centre)) - 0.625L;
-      if (!(gap < 0)) continue;  // rounded out of the cell
+      if (!(gap < 0)) continue;  // the point was rounded out of the cell
       CAPTURE(far, i);
       for (const fcl::CollisionGeometryd* other : {static_cast<const fcl::CollisionGeometryd*>(&ball),
                                                    static_cast<const fcl::CollisionGeometryd*>(&smooth)}) {
@@ -297,7 +297,7 @@ TEST_CASE("an interpolated motion without a reference point goes as FCL's object
       const Vector3d point = motion->getReferencePoint();
       SteadyMotion steady;
       const bool known = steadyMotion(*motion, steady);
-      // What an optimiser makes of memory that nobody has set is its own: the object tells what it holds.
+      // The compiler's optimiser decides what is in uninitialised memory, so this tests the object as it is.
       CHECK(known == (!turns || point.lpNorm<1>() < 1e6));
       if (known && point.lpNorm<1>() < 1e6)
         for (const double t : {0.0, 0.3, 0.5, 1.0}) {

@@ -1,4 +1,4 @@
-// Motions next to meshes and trees: near ones take few looks, and dense samples agree.
+// Motions next to meshes and trees: near ones need few examined times, and dense samples agree.
 #include <fcl/config.h>
 #include <fcl/geometry/bvh/BVH_model.h>
 #include <fcl/geometry/geometric_shape_to_BVH_model.h>
@@ -43,13 +43,15 @@ TEST_CASE("what slides over a flat mesh takes few looks, however near, and one t
         slide.angular = {0, 0, turn};
         const MotionAnswer over = firstContact(*floor, still, *body, slide);
         CHECK(over.verdict == MotionVerdict::free);
-        const long few = turn > 0 ? 300 : 30;  // points on a circle leave the plane of their speeds
+        const long few =
+            turn > 0 ? 300 : 30;  // points on a circle leave the plane in which they start to move
         CHECK(over.queries < few);
         CHECK(firstContact(*body, slide, *floor, still).queries < few);
         slide.linear.z() = -2 * room;
         const MotionAnswer sinks = firstContact(*floor, still, *body, slide, {0, 1e-6});
         CHECK(sinks.verdict == MotionVerdict::contact);
-        CHECK(std::abs(sinks.until - 0.5) <= 1e-6 + 1e-15 / room);  // 2 room take 1 of time, to rounding
+        CHECK(std::abs(sinks.until - 0.5) <=
+              1e-6 + 1e-15 / room);  // 2 room takes 1 unit of time, up to rounding
       }
 }
 
@@ -65,7 +67,7 @@ TEST_CASE("a slide in a room and along a tree's cells takes few looks") {
     motion.begin.translation().z() -= 2e-6;
     CHECK(firstContact(around, still, crate, motion).verdict == MotionVerdict::contact);
   };
-  fcl::BVHModel<fcl::OBBRSSd> room;  // its hull holds the crate
+  fcl::BVHModel<fcl::OBBRSSd> room;  // its hull contains the crate
   fcl::generateBVHModel(room, fcl::Boxd(2, 2, 1), Isometry3d::Identity());
   slide(room, -0.5, 10);
 #if FCL_HAVE_OCTOMAP
@@ -74,7 +76,7 @@ TEST_CASE("a slide in a room and along a tree's cells takes few looks") {
     for (int j = -8; j < 8; ++j) {
       const auto x = static_cast<float>(0.0625 * (i + 0.5)), y = static_cast<float>(0.0625 * (j + 0.5));
       cells->updateNode(octomap::point3d(x, y, -0.03F), true);
-      cells->updateNode(octomap::point3d(x, 0.51F, y + 0.5F), true);  // a wall beside
+      cells->updateNode(octomap::point3d(x, 0.51F, y + 0.5F), true);  // a wall beside the floor
     }
   slide(fcl::OcTreed(cells), 0, 30);
 #endif
@@ -112,7 +114,7 @@ TEST_CASE("bodies that graze bumpy ground are free or meet it where dense sample
         graze.begin = pose(random.rotation(), random.uniform(0, 0.6) * random.direction());
         graze.linear = random.uniform(0, 0.6) * random.direction();
         graze.angular = random.uniform(0, 2) * random.direction();
-        // As high as it would just not touch at the middle of its way, but for a little.
+        // At a height where it almost touches at the middle of its way.
         graze.begin.translation().z() = graze.linear.z() = 0;
         const Isometry3d middle = graze.at(0.5);
         graze.begin.translation().z() = 1;

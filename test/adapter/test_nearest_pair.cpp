@@ -1,4 +1,4 @@
-// Meshes and trees against each other and against shapes: the nearest elements of all.
+// Meshes and trees against each other and against shapes: the nearest elements must be found.
 #include <fcl/geometry/geometric_shape_to_BVH_model.h>
 #include <fcl/geometry/shape/box.h>
 #include <fcl/geometry/shape/capsule.h>
@@ -29,7 +29,7 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// Rounding outward for bodies of 1 m in all, a metre apart.
+/// Outward rounding for bodies of 1 m in total, a metre apart.
 constexpr double kRounding = 4 * kGapRounding;
 
 struct Truth {
@@ -118,21 +118,21 @@ TEST_CASE("two meshes or trees that overlap are 0 apart, with two elements that 
       CHECK((d.lower < 0 && d.upper > 0));
       CHECK(d.upper - d.lower <= 2 * kRounding);
       REQUIRE(truth.all.count(d.element) == 1);
-      // A cell is solid: its triangles may lie apart from a triangle inside it.
+      // A cell is solid, so its triangles may be away from a triangle inside it.
       const bool solid = first.name == "octree" || second.name == "octree";
       if (!solid) CHECK(truth.all.at(d.element) == 0);
       CHECK(d.points[0] == d.points[1]);
       if (first.name != "octree") CHECK(offBy(d.points[0], first.triangles(a).at(d.element[0])) <= kRounding);
       if (second.name != "octree")
         CHECK(offBy(d.points[1], second.triangles(b).at(d.element[1])) <= kRounding);
-      CHECK(toFclResult(d).min_distance == 0);  // as FCL has it
+      CHECK(toFclResult(d).min_distance == 0);  // as in FCL
     }
   CHECK(met > 60);
 }
 
 TEST_CASE("needles that all but meet as meshes are no farther apart than their upper bound") {
   using Needle = std::array<Vector3d, 3>;
-  // Across a needle of kilometres, beside one of a metre, a search for the depth ends in rounding.
+  // Across a needle of kilometres, next to a needle of a metre, a search for the depth ends in rounding.
   const std::array<std::array<Needle, 2>, 3> pairs{
       {{{{{{-0.1640813593259168, 0.10695430533756101, 0.045549859581039701},
            {0.62741927718483226, -0.1317575115888982, -0.25287344929125483},

@@ -1,4 +1,4 @@
-// Octrees as maps have them: most of the space known to be free, whole blocks of it in one cell.
+// Octrees as in maps: most of the space is known to be free, and whole blocks of it are one cell.
 #include <fcl/config.h>
 #if FCL_HAVE_OCTOMAP
 #include <fcl/geometry/octree/octree.h>
@@ -29,10 +29,10 @@ namespace {
 constexpr int kWide = 16;        // cells each way
 constexpr double kCell = 0.125;  // m, exact in octomap's floats
 
-/// How a map's marks of inner cells are kept.
+/// How up to date a map's marks of inner cells are.
 enum class Marks { current, stale, noFreeCells };
 
-/// A cube of cells about the origin: a floor, a post and a few cells more that are occupied.
+/// A cube of cells around the origin. A floor, a post and some other cells are occupied.
 struct Map {
   std::shared_ptr<octomap::OcTree> cells = std::make_shared<octomap::OcTree>(kCell);
   std::vector<Vector3d> occupied;  // centres
@@ -50,7 +50,7 @@ struct Map {
           if (full) occupied.push_back(centre);
           if (!full && marks == Marks::noFreeCells) continue;
           const Eigen::Vector3f p = centre.cast<float>();
-          // Lazy updates leave the marks above a cell as they were: free, here.
+          // Lazy updates leave the marks above a cell unchanged: free, in this case.
           cells->updateNode(octomap::point3d(p.x(), p.y(), p.z()), full, marks == Marks::stale);
         }
     if (marks == Marks::current) cells->prune();
@@ -63,7 +63,7 @@ std::vector<std::shared_ptr<fcl::CollisionGeometryd>> bodies() {
           bumpyGround<fcl::OBBRSSd>(4, 0.1)};
 }
 
-/// Of a body and one cell as a box of its own (m).
+/// Distance of a body from one cell, as a box of its own (m).
 double fromCell(const Vector3d& centre, const Isometry3d& tree, const fcl::CollisionGeometryd& body,
                 const Isometry3d& pose) {
   Isometry3d place = tree;
@@ -133,7 +133,7 @@ TEST_CASE("a tree of free cells alone is nowhere near anything, and meets nothin
       CHECK(d.status == DistanceStatus::exact);
       CHECK((d.distance == kFar && d.lower == kFar && d.upper > kFar));
       CHECK((d.normal.isZero(0) && d.gradient[0].isZero(0) && d.gradient[1].isZero(0)));
-      CHECK(toFclResult(d).min_distance == kFar);  // as FCL's own
+      CHECK(toFclResult(d).min_distance == kFar);  // as in FCL
     }
     CHECK(distance(tree, here, *other, nowhere).status == DistanceStatus::invalid);
     CHECK(isFartherThan(0.0, tree, here, *other, here));
@@ -175,7 +175,7 @@ TEST_CASE("a scene's free map hides nothing else in it") {
   distanceCallback(&ball, &box, &data, dist);
   CHECK(data.result.distance == Approx(0.8).margin(1e-15));
   CHECK(data.invalid == 0);
-  distanceCallback(&map, &none, &data, dist);  // not even the map is clear of a body that is none
+  distanceCallback(&map, &none, &data, dist);  // not even the map is clear of an invalid body
   CHECK(data.result.distance == -std::numeric_limits<double>::infinity());
 }
 #endif

@@ -1,4 +1,4 @@
-// Farther than a threshold, for every pair of geometries, and how little has to be asked for it.
+// Tests isFarther for every pair of geometries, and how few elements are queried for it.
 #include <fcl/config.h>
 #include <fcl/geometry/bvh/BVH_model.h>
 #include <fcl/geometry/geometric_shape_to_BVH_model.h>
@@ -62,7 +62,7 @@ Kind mesh(const char* name) {
   return kind;
 }
 
-/// Every type, some 0.4 m across.
+/// Every type, about 0.4 m in size.
 std::vector<Kind> everyKind() {
   std::vector<Kind> all;
   const auto volume = StpBv::build(randomHull(30, {0.2, 0.15, 0.1}, 3));
@@ -102,7 +102,7 @@ std::vector<Kind> everyKind() {
   return all;
 }
 
-/// Two bodies' distance, or what is known of it.
+/// The distance of two bodies, or what is known of it.
 Distance between(const Part& p, Isometry3d a, const Part& q, Isometry3d b) {
   a.translation() = a * p.place;
   b.translation() = b * q.place;
@@ -117,7 +117,7 @@ bool isSurface(const Kind& kind) {
   return kind.geometry->getObjectType() == fcl::OT_BVH || kind.geometry->getObjectType() == fcl::OT_OCTREE;
 }
 
-/// Over all pairs of bodies; two surfaces have no depth.
+/// The least distance over all pairs of bodies. Two surfaces have no depth.
 Distance leastBetween(const Kind& first, const Isometry3d& a, const Kind& second, const Isometry3d& b) {
   Distance least;
   least.lower = least.upper = std::numeric_limits<double>::infinity();
@@ -162,8 +162,8 @@ TEST_CASE(
         }
         ++(d.lower > 0 ? apart : overlapping);
         CAPTURE(d.lower, d.upper);
-        // A depth of round bodies is good to 1e-6 of it: an ulp in a cell's
-        // place may move its bounds by that.
+        // A depth of round bodies is accurate to 1e-6 of it: an ulp in a cell's place may move its bounds by
+        // that.
         const double slack = 1e-12 * far + (d.lower < 0 ? 1e-6 * -d.lower : 0);
         CHECK(farther(d.lower - slack));
         CHECK_FALSE(farther(d.upper + slack));
@@ -196,7 +196,7 @@ TEST_CASE(
       if (!unbounded) {
         CHECK(farther(1, away));
         CHECK(counts.solved == 0);
-        // A tree's root is kilometres across: it takes a few levels to get to the cells.
+        // A tree's root is kilometres wide, so it takes a few levels to get to the cells.
         if (first.parts[0].place.isZero() && second.parts[0].place.isZero()) CHECK(counts.bounds == 1);
       }
       const Isometry3d b = pose(random.rotation(), a.translation() + 0.7 * random.direction());
@@ -211,7 +211,7 @@ TEST_CASE(
     }
   CAPTURE(pairs, asked, solvedBelow, solvedAbove);
   CHECK(solvedBelow <= pairs / 500);  // 0.14 % of all pairs of bodies, a millimetre below the distance
-  CHECK(solvedAbove <= 2 * asked);    // 1.2 a question on average, a millimetre above it
+  CHECK(solvedAbove <= 2 * asked);    // 1.2 per question on average, a millimetre above the distance
 }
 
 TEST_CASE("balls in two simple shapes tell that these meet, and never more than that") {
@@ -227,9 +227,9 @@ TEST_CASE("balls in two simple shapes tell that these meet, and never more than 
       ProximityCounts counts;
       QueryContext context;
       context.proximity = &counts;
-      // To 1e-12 m, where rounding is below 1e-13 of a size of a metre. Faces, ends and balls opposite each
-      // other along x, y or z: the balls' distance is the bodies'. A cylinder's end is along z alone, and its
-      // side anywhere across.
+      // To 1e-12 m, because rounding is below 1e-13 for a size of a metre. Faces, ends and balls are opposite
+      // each other along x, y or z, so the balls' distance is that of the bodies. A cylinder has ends only
+      // along z, and its side in all directions across z.
       for (const double gap : {-0.3, -1e-3, 1e-3, 0.3}) {
         const Vector3d axis = Vector3d::Unit(static_cast<int>(random.uniform(0, 3)));
         Isometry3d a = pose(random.rotation(), random.direction()), b = a;
@@ -258,7 +258,7 @@ TEST_CASE("whatever distance says of two kinds that overlap, a threshold below 0
         if (d.status == DistanceStatus::invalid || !(d.lower <= 0)) continue;
         CAPTURE(first.name, second.name, i, d.lower, d.upper);
         ++(isSurface(first) && isSurface(second) ? surfaces : bodies);
-        const double slack = 1e-12 - 1e-6 * d.lower;  // a depth of round bodies is good to 1e-6 of it
+        const double slack = 1e-12 - 1e-6 * d.lower;  // a depth of round bodies is accurate to 1e-6 of it
         for (const double x : {-1e-9, -1e-3, -0.1, -0.4, -10.0}) {
           if (x < d.lower - slack) CHECK(isFartherThan(x, *first.geometry, a, *second.geometry, b));
           if (x > d.upper + slack) CHECK_FALSE(isFartherThan(x, *first.geometry, a, *second.geometry, b));

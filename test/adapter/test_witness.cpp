@@ -1,6 +1,6 @@
-// The closest features of two hulls, by FCL's GJK with a stop that proves convergence. Its bounds hold
-// against known distances of pairs that FCL gets wrong and against planes held to all vertices; its features
-// are right in poses where they are plain to see.
+// The closest features of two hulls, by FCL's GJK with a stopping criterion that proves convergence. Its
+// bounds hold for known distances of pairs that FCL gets wrong, and for planes that are checked with all
+// vertices. Its features are right in poses where they are obvious.
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -19,8 +19,8 @@ using Verdict = PolyhedralWitness::Verdict;
 
 namespace {
 
-/// Gap between the supporting planes along `n`, from all vertices and in the world frame: a check that shares
-/// nothing with the code under test.
+/// Gap between the supporting planes along `n`, over all vertices and in the world frame. This check shares
+/// no code with the tested code.
 double planeGap(const Cloud& a, const Isometry3d& poseA, const Cloud& b, const Isometry3d& poseB,
                 const Vector3d& n) {
   double highA = -1e300, lowB = 1e300;
@@ -162,7 +162,7 @@ TEST_CASE("the polyhedral witness does not depend on scale, place or start") {
 TEST_CASE("a witness that stops early keeps its bounds, for less work") {
   Random random(12);
   const HullGraph hull(randomHull(100, {0.3, 0.2, 0.1}, 3));
-  constexpr double kRounding = 1e-15;  // of points less than a metre away
+  constexpr double kRounding = 1e-15;  // for points less than a metre away
   long supports = 0, exactSupports = 0;
   for (int i = 0; i < 500; ++i) {
     const Isometry3d poseA = pose(random.rotation(), Vector3d::Zero());
@@ -204,9 +204,10 @@ TEST_CASE("a witness of poses that are not finite fails quietly") {
       broken.matrix()(entry % 3, entry / 3) = bad;
       for (const PolyhedralWitness& w : {polyhedralWitness(cube, broken, sphere, Isometry3d::Identity()),
                                          polyhedralWitness(sphere, Isometry3d::Identity(), cube, broken)}) {
-        if (std::abs(bad) < HUGE_VAL) continue;  // 1e308 is finite: any verdict, as long as it comes back
+        if (std::abs(bad) < HUGE_VAL)
+          continue;  // 1e308 is finite: any verdict is accepted, if the call returns
         CHECK(w.verdict == Verdict::failed);
-        CHECK(w.supports == 0);  // nothing that is not finite reaches FCL
+        CHECK(w.supports == 0);  // values that are not finite do not reach FCL
         CHECK(w.direction == Vector3d(0, 0, 0));
       }
     }

@@ -19,7 +19,8 @@ int main() {
   manager.setup();
   fcl_stpbv::DistanceData data;
   manager.distance(&data, fcl_stpbv::distanceCallback);
-  // Between parallel faces the two big spheres' tops face each other: 0.3 m less twice the over-cover.
+  // Between parallel faces, the tops of the two big spheres face each other: 0.3 m minus twice the
+  // over-cover.
   const double expected = 0.3 - 2 * fcl_stpbv::overCover(link->volume()).max;
   std::printf("distance %.15g, expected %.15g\n", data.result.distance, expected);
   return std::abs(data.result.distance - expected) <= 1e-14 ? 0 : 1;

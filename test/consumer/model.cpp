@@ -1,5 +1,5 @@
-// Uses the robot component from an installed tree: reads a URDF. What a program has of a robot lies where the
-// library puts it, so this links only with flags under which Eigen does the same.
+// Uses the robot component from an installed tree: reads a URDF. The members of a robot lie in memory as in
+// the library, so this links only with flags for which Eigen's types have the same layout.
 #include <fcl_stpbv/robot/kinematics.h>
 
 #include <cstdio>

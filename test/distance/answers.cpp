@@ -20,8 +20,9 @@ int main(int argc, char** argv) {
   for (int i = 0; i < count; ++i) {
     const StpBv &a = *bodies[static_cast<std::size_t>(random.below(6))],
                 &b = *bodies[static_cast<std::size_t>(random.below(6))];
-    // Apart, touching and overlapping; then a small step on with what the first answer left.
-    // One number after the other: compilers differ in which argument of a call they look at first.
+    // Apart, touching and overlapping bodies; then a small step further, with the cache of the first answer.
+    // Numbers are drawn in separate statements, because compilers evaluate the arguments of a call in
+    // different orders.
     const Eigen::Matrix3d turnA = random.rotation(), turnB = random.rotation();
     const Eigen::Vector3d at = random.direction(), towards = random.direction();
     const Eigen::Isometry3d poseA = pose(turnA, at),

@@ -1,7 +1,7 @@
-// deep_soak PAIRS SEED: STP-BVs deeper in each other than their margins, against a reference that shares no
-// code with the library: the overlap along thousands of directions from the vertices alone, then a polish of
-// every candidate with the support function straight from its definition. Prints one line a pair of shapes
-// and fails if a wider gap than the library's is found or an answer is not what its supporting planes say.
+// deep_soak PAIRS SEED: STP-BVs that overlap by more than their margins, against a reference that shares no
+// code with the library: the overlap along thousands of directions from the vertices alone, then a refinement
+// of every candidate with the support function computed from its definition. Prints one line per pair of
+// shapes. Fails if it finds a wider gap than the library, or if an answer differs from its supporting planes.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -26,10 +26,10 @@ struct Body {
   std::string name;
   Cloud cloud;
   double r;
-  std::vector<StpBv::Ptr> volumes{};  // of the smallest R and a thousandth, and of kBigRadii
+  std::vector<StpBv::Ptr> volumes{};  // with R a thousandth above the smallest, and with kBigRadii
 };
 
-const std::array<double, 4> kBigRadii{0.32, 1, 10, 100};  // the first barely enough for the longest
+const std::array<double, 4> kBigRadii{0.32, 1, 10, 100};  // the first is barely enough for the longest body
 
 std::vector<Body> bodies() {
   std::vector<Body> all;
@@ -46,20 +46,20 @@ std::vector<Body> bodies() {
   add("cylinder", cylinder(0.1, 0.3, 32), 0.01);
   add("geodesic", geodesicSphere(0.15, 2), 0.01);
   add("hull", randomHull(200, {0.2, 0.15, 0.1}, 3), 0.01);
-  Cloud link = cylinder(0.05, 0.4, 16);  // a limb: a cylinder with a head wider than it
+  Cloud link = cylinder(0.05, 0.4, 16);  // a limb: a cylinder with a wider head
   for (const Vector3d& p : box(0.16, 0.12, 0.08)) link.push_back(p + Vector3d(0.02, 0, 0.2));
   add("link", link, 0.01);
   return all;
 }
 
-/// A posed body's support function in double precision: the lowest centre along `n` whose ball of radius rho
-/// holds all points, from its at most three active points (docs/theory.md, 1).
+/// A posed body's support function in double precision, from the lowest centre along `n` whose ball of radius
+/// rho contains all points. At most three points are active (docs/theory.md, 1).
 class Support {
  public:
   Support(const Body& body, double R, const Isometry3d& at) : r_(body.r), rho_(R - body.r) {
     for (const Vector3d& p : body.cloud) points_.push_back(at * p);
   }
-  /// Of the points' hull: no more than the body's, and no less by more than what faces bulge.
+  /// Support of the points' hull. It is at most the body's, and lower by at most the faces' bulge.
   double hull(const Vector3d& n) const {
     double most = -1e300;
     for (const Vector3d& p : points_) most = std::max(most, n.dot(p));
@@ -82,7 +82,8 @@ class Support {
   }
 
  private:
-  /// Lowest feasible centre of up to four points over all their subsets; keeps the subset.
+  /// The lowest feasible centre for up to four points, over all their subsets. `basis` becomes the best
+  /// subset.
   Vector3d lowest(std::vector<Vector3d>& basis, const Vector3d& n) const {
     const std::vector<Vector3d> all = basis;
     double leastMiss = 1e300, height = 1e300;
@@ -93,7 +94,7 @@ class Support {
       for (std::size_t i = 0; i < all.size(); ++i)
         if (subset >> i & 1u) p.push_back(all[i]);
       if (p.size() > 3) continue;
-      Vector3d middle = p[0], down = n;  // the points' centre, and the way from there to the ball's
+      Vector3d middle = p[0], down = n;  // the points' centre, and the direction from it to the ball's centre
       double reach2 = 0;
       if (p.size() == 2) {
         middle = 0.5 * (p[0] + p[1]);
@@ -129,7 +130,7 @@ class Support {
   double r_, rho_;
 };
 
-/// Steps of a shrinking compass around `n` while they widen the gap.
+/// Moves `n` by the steps of a shrinking compass as long as they widen the gap.
 template <typename Gap>
 double polish(const Gap& gap, Vector3d& n, double step, double finest) {
   double best = gap(n);
@@ -137,7 +138,7 @@ double polish(const Gap& gap, Vector3d& n, double step, double finest) {
     const Vector3d e = n.unitOrthogonal(), f = n.cross(e);
     bool grew = false;
     for (int k = 0; k < 12; ++k) {
-      const double angle = 0.5235987755982988 * k + 7 * step;  // turned a little each round
+      const double angle = 0.5235987755982988 * k + 7 * step;  // turned a little in each round
       const Vector3d m = (n + step * (std::cos(angle) * e + std::sin(angle) * f)).normalized();
       const double g = gap(m);
       if (g > best) best = g, n = m, grew = true;
@@ -150,7 +151,8 @@ double polish(const Gap& gap, Vector3d& n, double step, double finest) {
 /// The widest gap between two overlapping bodies, by brute force.
 double widestGap(const Support& a, const Support& b, double bulge) {
   constexpr int kDirections = 6000;
-  const double spacing = 3.6 / std::sqrt(kDirections);  // rad, to the nearest direction and beyond
+  const double spacing =
+      3.6 / std::sqrt(kDirections);  // rad, more than the distance to the nearest direction
   const auto hulls = [&](const Vector3d& n) { return -a.hull(n) - b.hull(-n); };
   const auto exact = [&](const Vector3d& n) { return -a.exact(n) - b.exact(-n); };
   static const std::vector<Vector3d> directions = [] {
@@ -165,7 +167,8 @@ double widestGap(const Support& a, const Support& b, double bulge) {
   std::vector<std::pair<double, Vector3d>> trials;
   for (const Vector3d& n : directions) trials.emplace_back(hulls(n), n);
   std::sort(trials.begin(), trials.end(), [](auto& p, auto& q) { return p.first > q.first; });
-  // The best of each neighbourhood, polished on the hulls; then those within the bulge of the best, exactly.
+  // Refine the best of each neighbourhood on the hulls. Then compute those within the bulge of the best
+  // exactly.
   std::vector<std::pair<double, Vector3d>> tops;
   std::vector<Vector3d> seen;
   for (std::size_t i = 0; i < trials.size() && seen.size() < 60; ++i) {
@@ -191,8 +194,8 @@ double widestGap(const Support& a, const Support& b, double bulge) {
 struct Row {
   int pairs = 0, exact = 0, local = 0, bounded = 0, best = 0;
   double missed = 0;  ///< widest gap beyond the answer (m)
-  double error = 0;   ///< of the answer along its own normal (m)
-  double open = 0;    ///< upper less lower bound, at most (m)
+  double error = 0;   ///< error of the answer along its own normal (m)
+  double open = 0;    ///< largest upper bound minus lower bound (m)
   double nanoseconds = 0;
   void add(const Row& o) {
     pairs += o.pairs, exact += o.exact, local += o.local, bounded += o.bounded, best += o.best;
@@ -222,7 +225,7 @@ int main(int argc, char** argv) {
     const auto which = static_cast<std::size_t>(random.below(static_cast<int>(kBigRadii.size()) + 1));
     const StpBv &va = *a.volumes[which], &vb = *b.volumes[which];
     const double Ra = va.radii().R, Rb = vb.radii().R;
-    // A quarter aligned, a quarter nearly so; from contact's depth to one centre on the other.
+    // A quarter is aligned, a quarter nearly so. The depth varies from contact to coinciding centres.
     Eigen::Matrix3d turn = random.rotation();
     const int kind = random.below(4);
     if (kind == 0) turn = Eigen::Matrix3d::Identity();
@@ -247,7 +250,7 @@ int main(int argc, char** argv) {
     row.local = d.status == DistanceStatus::local;
     row.bounded = d.status == DistanceStatus::bounded;
     row.open = d.upper - d.lower;
-    // The bulge of all faces over the hull is at most the sag of the longest chord (docs/theory.md, 4).
+    // The bulge of all faces over the hull is at most the sagitta of the longest chord (docs/theory.md, 4).
     const auto bulge = [](double rho) { return rho - std::sqrt(rho * rho - std::min(0.09, rho * rho)); };
     const double truth = widestGap({a, Ra, base}, {b, Rb, pb}, bulge(va.radii().rho) + bulge(vb.radii().rho));
     row.missed = std::max(0.0, truth - d.distance);
@@ -255,8 +258,8 @@ int main(int argc, char** argv) {
     const long double along = referenceGap(referenceBody(a.cloud, a.r, Ra, base),
                                            referenceBody(b.cloud, b.r, Rb, pb), d.normal.cast<long double>());
     row.error = std::abs(static_cast<double>(along - d.distance));
-    // To the rounding of rho, 100 m at most, and a few times as much. Near the smallest R bodies are balls,
-    // for which the polytope may run out of points.
+    // Up to a small multiple of the rounding of rho, which is at most 100 m. Near the smallest R bodies are
+    // balls, for which the polytope may run out of points.
     const bool wide = row.open > (Ra < 1 ? 2e-4 * -d.distance : 1e-12);
     if (!row.best || wide || row.error > 1e-13 || d.upper < truth - 1e-12 || d.lower > d.upper) {
       good = false;

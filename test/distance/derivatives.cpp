@@ -1,5 +1,5 @@
-// Moves a pair along twists and asks the library for its distance and second derivatives. The signature of an
-// answer names its patches, and of a shape the corners, sides and rims that the normal selects.
+// Moves a pair along twists, and computes its distance and second derivatives by the library. The signature
+// of an answer names its patches, and for a shape the corners, sides and rims that the normal selects.
 #include "test/distance/derivatives.h"
 
 #include <cmath>
@@ -35,7 +35,7 @@ bool DerivativePair::second(const Poses& at, const Distance& d, DistanceHessian&
 std::vector<int> DerivativePair::signature(const Poses& at, const Distance& d) const {
   std::vector<int> names{d.patch[0], d.patch[1]};
   if (other) return names;
-  constexpr double kLevel = 1e-12;  // rad; normals of flat features are good to some 1e-15
+  constexpr double kLevel = 1e-12;  // rad; normals of flat features are accurate to about 1e-15
   const Vector3d m = -(at[1].linear().transpose() * d.normal);
   const double across = std::hypot(m.x(), m.y());
   const Shape& s = shape.shape;

@@ -1,10 +1,10 @@
-// Random queries over hard shapes, radii and placements; every one must converge and certify itself.
+// Random queries over hard shapes, radii and placements. Every query must converge and certify its answer.
 //
 //   distance_soak [QUERIES] [SEED]
 //
-// prints a row per big radius and kind of placement, as it gets them, and returns 1 when a query did not
-// converge, a certificate is wider than rounding, or memory has grown after the first row. "wide":
-// certificates wider than 1e-12 of the two bodies' size.
+// Prints a row per big radius and kind of placement as soon as it is complete. Returns 1 if a query did not
+// converge, a certificate is wider than rounding, or memory grew after the first row. "wide": certificates
+// wider than 1e-12 of the two bodies' size.
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -44,7 +44,7 @@ struct Row {
   }
 };
 
-/// Resident memory (kB); 0 where the system does not tell.
+/// Resident memory (kB); 0 if the system does not give it.
 long residentMemory() {
   std::ifstream status("/proc/self/statm");
   long whole = 0, resident = 0;
@@ -93,7 +93,7 @@ std::vector<StpBv::Ptr> bodies(double R) {
   return result;
 }
 
-/// Axes of one body along axes of the other, but for `tilt` about a random axis.
+/// A rotation that aligns the axes of one body with axes of the other, except for `tilt` about a random axis.
 Matrix3d parallel(Random& random, double tilt) {
   Matrix3d q = Matrix3d::Zero();
   const int first = random.below(3), second = (first + 1 + random.below(2)) % 3;
@@ -120,7 +120,7 @@ int main(int argc, char** argv) {
               "not exact", "max gap", "wide", "pairs", "max", "steps", "ns");
   for (const double R : radii) {
     const std::vector<StpBv::Ptr> pool = bodies(R);
-    long memory = 0;  // once all of this R's bodies have been asked
+    long memory = 0;  // after all bodies of this R were queried once
     for (int kind = 0; kind < 4; ++kind) {
       Random random(seed * 1000 + static_cast<std::uint64_t>(kind));
       Row cold, warm;
@@ -136,7 +136,7 @@ int main(int argc, char** argv) {
         Isometry3d pb = pose(qb, pa.translation() + 3.0 * random.direction());
         double ns = 0;
         const Distance far = timed(a, pa, b, pb, nullptr, ns);
-        // Along the normal the optimum stays where it is, so this sets the distance.
+        // A shift along the normal does not move the optimum, so this sets the distance.
         const double margin = a.radii().r + b.radii().r;
         const double target = random.below(3) ? std::pow(10.0, random.uniform(-6, 0))
                                               : -margin * random.uniform(0.0, 0.999) + 1e-9;
@@ -158,7 +158,7 @@ int main(int argc, char** argv) {
           pb.translation() += (large ? 0.02 : 0.001) * random.direction() + 0.03 * d.normal;
           d = timed(a, pa, b, pb, &cache, ns);
           if (d.status == DistanceStatus::local) {
-            pb.translation() += 0.3 * d.normal;  // the turn went through; that is not what is asked here
+            pb.translation() += 0.3 * d.normal;  // the turn went too deep, which is not tested here
             continue;
           }
           warm.add(d, size, ns);
@@ -173,16 +173,16 @@ int main(int argc, char** argv) {
         failures += row.notExact;
         asked += row.queries;
         wide += row.wide;
-        // A unit normal is good to an ulp and a face's point moves R times as far: so wide is the certificate
-        // of bodies that touch without margins.
+        // A unit normal is accurate to an ulp, and a face's point moves R times as far. So wide is the
+        // certificate of bodies that touch without margins.
         // Both bounds are rounded outward by 40 roundings of all coordinates that enter (docs/theory.md, 5):
-        // the bodies' and the second one's origin, below 6 m here.
+        // the bodies' and the second origin's, together below 6 m here.
         if (row.gap > std::numeric_limits<double>::epsilon() * (8 * (2 * R + 10) + 3 * 40 * 6)) ++failures;
       };
       print("cold", cold);
       print("warm", warm);
       std::fflush(stdout);
-      if (kind == 0) continue;  // until all bodies of this R have been asked
+      if (kind == 0) continue;  // until all bodies of this R were queried
       const long resident = residentMemory();
       if (memory > 0 && resident > memory + 1024) {
         std::fprintf(stderr, "memory has grown from %ld to %ld kB\n", memory, resident);

@@ -1,5 +1,5 @@
-// What encloses the true distance of two volumes along an answer's normal, in as many digits as it takes:
-// long double where 1e-19 of R is nothing beside a certificate's width, 113 bits where it is not, a hundred
+// Encloses the true distance of two volumes along an answer's normal, with as many digits as needed: long
+// double if 1e-19 of R is negligible compared with a certificate's width, 113 bits otherwise, and a hundred
 // digits for a sample.
 #pragma once
 
@@ -18,7 +18,7 @@ using Quad = boost::multiprecision::number<boost::multiprecision::cpp_bin_float_
 using Hundred =
     boost::multiprecision::number<boost::multiprecision::cpp_bin_float<100>, boost::multiprecision::et_off>;
 
-/// `least` <= truth <= `most`, each up to `slack`, which the numbers' rounding leaves open.
+/// `least` <= true value <= `most`, each up to `slack`, which comes from rounding.
 template <class Real>
 struct Enclosure {
   Real least, most;
@@ -29,21 +29,21 @@ struct Enclosure {
   double width() const { return static_cast<double>(most - least) + 2 * slack; }
 };
 
-/// What supports of bodies of this size are good to: 16 roundings of R and of the coordinates on either side,
-/// and as many again in their sum.
+/// Accuracy of supports of bodies of this size: 16 roundings of R and of the coordinates for each body, and as
+/// many again in their sum.
 template <class Real>
 double roundings(double size) {
   return 64 * static_cast<double>(std::numeric_limits<Real>::epsilon()) * size;
 }
 
-/// A cloud and its radii where a query had it.
+/// A cloud, its radii and its pose in a query.
 struct Placed {
   const Cloud& cloud;
   double r, R;
   const Eigen::Isometry3d& pose;
 };
 
-/// The body seen from `origin`: far from the world's origin the difference of the origins is what counts, and
+/// The body relative to `origin`. Far from the world's origin only the difference of the origins matters, and
 /// it is exact there.
 template <class Real>
 ReferenceBodyOf<Real> seenFrom(const Eigen::Vector3d& origin, const Placed& placed) {
@@ -55,12 +55,13 @@ ReferenceBodyOf<Real> seenFrom(const Eigen::Vector3d& origin, const Placed& plac
   return body;
 }
 
-/// The truth along the answer's normal, between the gap of the two supporting planes and the distance of the
-/// core points there; where that is wider than `fine`, the reference's search narrows it if `search`.
+/// Encloses the true value along the answer's normal, between the gap of the two supporting planes and the
+/// distance of the core points. If that is wider than `fine` and `search` is set, the reference's search
+/// narrows it.
 template <class Real>
 Enclosure<Real> enclose(const Distance& d, const Placed& first, const Placed& second, double fine,
                         bool search) {
-  // Answers are nearer to the true normal than this.
+  // Answers are nearer to the true normal than this (rad).
   constexpr double kNearby = 1e-3;
   const Eigen::Vector3d origin = first.pose.translation();
   const auto a = seenFrom<Real>(origin, first), b = seenFrom<Real>(origin, second);
@@ -72,7 +73,7 @@ Enclosure<Real> enclose(const Distance& d, const Placed& first, const Placed& se
   Enclosure<Real> truth{gap, (y - x).norm() - a.r - b.r, roundings<Real>(size)};
   if (search && !(truth.most - truth.least <= Real(fine))) {
     const auto found = distanceOf<Real>(a, b, n, Real(fine), kNearby);
-    // Without a plane between the cores the search has nothing to say.
+    // Without a plane between the cores the search gives no result.
     if (found.distance >= truth.least) {
       truth.least = found.distance;
       truth.most = std::min<Real>(truth.most, found.distance + found.gap);

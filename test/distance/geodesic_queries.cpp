@@ -1,6 +1,7 @@
-// Warm queries on turning geodesic spheres, for a tool that counts instructions:
-// geodesic_queries QUERIES small|large|deep. Deep: after small steps, bodies that overlap by more than their
-// margins.
+// Warm queries on turning geodesic spheres, for a tool that counts instructions: geodesic_queries QUERIES
+// small
+// large
+// deep. `deep`: after small steps, only bodies that overlap by more than their margins.
 #include <cstdio>
 #include <string>
 
@@ -20,7 +21,7 @@ int main(int argc, char** argv) {
   const bool deep = steps == "deep";
   benchmark::GeodesicMotion motion(steps == "large" ? benchmark::largeStep() : benchmark::smallStep(), 1,
                                    deep ? 0.3 : benchmark::GeodesicMotion::kNearest);
-  benchmark::Poses poses;  // the same ones made, however few are asked
+  benchmark::Poses poses;  // the same poses are made for any number of queries
   motion.next(poses, (deep ? 12 : 1) * benchmark::GeodesicMotion::kCycle);
   PairCache cache;
   double sum = 0;

@@ -1,8 +1,8 @@
-// shape_soak POSES SEED [SHAPE]: random poses of an STP-BV against each simple shape, all against
-// the independent reference, in both orders, with gradient and Hessian against differences and the
-// turn of the normal against its Lipschitz bound. Prints one line a shape and fails on any error
-// above 1e-12 m (1e-9 for cone and ellipsoid), any difference between the orders, witness points
-// that do not face each other, and any bound exceeded.
+// shape_soak POSES SEED [SHAPE]: random poses of an STP-BV against each simple shape. All are compared with
+// the independent reference, in both orders; gradient and Hessian with differences; the turn of the normal
+// with its Lipschitz bound. Prints one line per shape. Fails on any error above 1e-12 m (1e-9 for cone and
+// ellipsoid), any difference between the orders, witness points that do not face each other, and any bound
+// exceeded.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -44,7 +44,7 @@ std::vector<Body> bodies() {
   return all;
 }
 
-/// A pose at which the bodies are near, touching, slightly deep or far, some of them parallel.
+/// A pose at which the bodies are near, touching, slightly deep or far. In some of them they are parallel.
 Isometry3d placed(Random& random, const TestShape& shape, const Body& body) {
   Eigen::Matrix3d turn = random.rotation();
   if (random.below(4) == 0) {
@@ -53,7 +53,7 @@ Isometry3d placed(Random& random, const TestShape& shape, const Body& body) {
   }
   const Vector3d d = random.direction();
   Isometry3d at = pose(turn, d);
-  // Along d the shape's near side comes to a chosen gap from the volume's far side.
+  // Along d, place the shape's near side at a chosen gap from the volume's far side.
   if (shape.shape.unbounded()) return at;
   const double reach = d.dot(at.linear() * shape.shape.support(-(turn.transpose() * d))) - shape.shape.margin;
   const double gap = random.below(3) == 0 ? random.uniform(-2, 2) * body.r : random.uniform(0, 0.5);
@@ -61,7 +61,7 @@ Isometry3d placed(Random& random, const TestShape& shape, const Body& body) {
   return at;
 }
 
-/// The reference's answer; half spaces and planes have their normals given.
+/// The reference's answer. For half spaces and planes the normal is given.
 ReferenceAnswer truthOf(const ReferenceBody& a, const TestShape& shape, const Isometry3d& base,
                         const Isometry3d& at) {
   if (!shape.shape.unbounded())
@@ -80,18 +80,18 @@ double gapAlong(const ReferenceBody& a, const ReferenceShape& b, const Vector3d&
   return static_cast<double>(n.dot(b.support(-n)) - b.margin - referenceSupport(a, n));
 }
 
-/// How far the derivatives of an answer are from what other poses say, in parts of what theory allows.
+/// Errors of an answer's derivatives compared with other poses, as shares of what theory allows.
 struct Derivatives {
   double gradient = 0;  ///< central difference of the distance against the gradient
-  double second = 0;    ///< and of the gradient against the Hessian
+  double second = 0;    ///< central difference of the gradient against the Hessian
   double smooth = 0;    ///< error of the gradient where no region boundary is within the step
   double turn = 0;      ///< turn of the normal under a translation (docs/theory.md, 6)
 };
 
-/// Along a random twist of the shape over +-h. The second derivative jumps at region boundaries: so a central
-/// difference of the distance may be off by half a step times what the three Hessians there differ, and one
-/// of the gradient lies between them. False where something that the Hessians do not show, a feature smaller
-/// than the step, spoils it.
+/// Compares along a random twist of the shape over +-h. The second derivative jumps at region boundaries. So
+/// a central difference of the distance may be off by half a step times the differences of the three Hessians
+/// there, and a difference of the gradient lies between them. False if something that the Hessians do not
+/// show, a feature smaller than the step, spoils the comparison.
 bool differences(const Body& body, const Shape& shape, const Isometry3d& base, const Isometry3d& at,
                  const Distance& d, const Eigen::Matrix<double, 6, 1>& twist, double h, Derivatives& parts) {
   const double core = d.distance + body.r + shape.margin;
@@ -113,7 +113,8 @@ bool differences(const Body& body, const Shape& shape, const Isometry3d& base, c
     }
     const Distance e = k == 1 ? d : distance(*body.volume, base, shape, there);
     value[k] = e.distance;
-    if (shape.unbounded() && e.normal.dot(d.normal) < 0.0) {  // a plane, as deep on its other side: a kink
+    if (shape.unbounded() &&
+        e.normal.dot(d.normal) < 0.0) {  // a plane that is as deep on its other side: a kink
       parts = {};
       return false;
     }
@@ -127,7 +128,8 @@ bool differences(const Body& body, const Shape& shape, const Isometry3d& base, c
   here.gradient = error / (0.5 * h * (high - low) + rounding);
   if (0.5 * h * (high - low) < rounding) here.smooth = error;
   const double between = (speed[2] - speed[0]) / (2 * h);
-  // The core's point moves rho an ulp of the normal, the normal that over the cores' distance.
+  // An ulp of the normal moves the core's point by rho ulps. That changes the normal by the same divided by
+  // the cores' distance.
   const double rounded =
       16 * 2.2e-16 * (body.volume->radii().rho + 4) * (1 + (shape.unbounded() ? 0 : 1 / core)) / h;
   here.second = std::max({0.0, between - high, low - between}) / (0.1 * (high - low) + rounded);
@@ -147,18 +149,18 @@ Derivatives derivativesOf(const Body& body, const Shape& shape, const Isometry3d
   for (const double part : {1.0, 0.1, 0.01, 0.001})
     if (differences(body, shape, base, at, d, twist, part * step, parts)) break;
 
-  if (shape.unbounded()) return parts;  // the normal is the plane's
+  if (shape.unbounded()) return parts;  // the normal is always the plane's
   const double eps = 1e-3 * core;
   Isometry3d there = at;
   there.translation() += eps * random.direction();
   const Distance e = distance(*body.volume, base, shape, there);
   if (e.status != DistanceStatus::exact) return parts;
-  // Between the two poses the cores may come a little nearer than at either, by eps^2 / (8 nearer) to first
-  // order: no body's distance curves more than a point's.
+  // Between the two poses the cores may come slightly nearer than at either, by eps^2 / (8 nearer) to first
+  // order, because no body's distance curves more than a point's.
   const double ends = std::min(core, e.distance + body.r + shape.margin);
   const double nearer = ends - eps * eps / (6 * ends);
   const double angle = 2 * std::asin(std::min(1.0, 0.5 * (e.normal - d.normal).norm()));
-  // A normal is good to the rounding of the core's point, which moves rho an ulp, over the cores' distance.
+  // A normal is accurate to the rounding of the core's point (rho ulps) divided by the cores' distance.
   const double rounded = 16 * 2.2e-16 * (body.volume->radii().rho + 4) / nearer;
   parts.turn = angle / (eps / nearer + rounded);
   return parts;
@@ -199,8 +201,8 @@ int main(int argc, char** argv) {
       const ReferenceBody a = referenceBody(body.cloud, body.r, body.R, base);
       const ReferenceShape b = shape.posed(at);
       const ReferenceAnswer truth = truthOf(a, shape, base, at);
-      // The gap along any normal is no more than the distance. The reference stops short of the widest, or at
-      // an overlap, where some cores are micrometres apart: then the answer's own normal tells more.
+      // The gap along any normal is at most the distance. The reference may stop before the widest gap, or at
+      // an overlap, if cores are micrometres apart. Then the answer's own normal gives a better value.
       const double along =
           shape.shape.unbounded() ? static_cast<double>(truth.distance) : gapAlong(a, b, d.normal);
       if (truth.overlap && !(along + body.r + shape.shape.margin > 0)) {
@@ -208,8 +210,8 @@ int main(int argc, char** argv) {
         if (d.status == DistanceStatus::exact && d.distance + body.r + shape.shape.margin > 1e-13) {
           ++missed;
         }
-        // Nothing but directions is left to ask: none may be wider than the bound, or than the answer by more
-        // than its search leaves, and along its own normal the answer is what the supports say.
+        // Only directions can be compared: no gap may be wider than the bound, or wider than the answer by
+        // more than the search's tolerance. Along its own normal the answer must equal the supports.
         const auto widest = static_cast<double>(widestGapOverDirections(a, b, 500));
         deep = std::max({deep, widest - d.distance, widest - d.upper, std::abs(along - d.distance)});
         if (widest - d.distance > 1e-6 * (1e-3 - widest) || widest - d.upper > 1e-12 ||
@@ -221,7 +223,7 @@ int main(int argc, char** argv) {
         }
         continue;
       }
-      constexpr double kShort = 1e-12;  // m; beyond the rounding of either
+      constexpr double kShort = 1e-12;  // m; more than the rounding of both
       const bool stopped = along > static_cast<double>(truth.distance) + kShort;
       const double error =
           std::abs(stopped ? d.distance - along : static_cast<double>(d.distance - truth.distance));
@@ -232,7 +234,7 @@ int main(int argc, char** argv) {
         std::printf("  %s %d: body %d status %d distance %.17g truth %.17Lg error %.2g upper-lower %.2g\n",
                     name.c_str(), i, static_cast<int>(&body - all.data()), static_cast<int>(d.status),
                     d.distance, truth.distance, error, d.upper - d.lower);
-      constexpr double kApart = 1e-4;  // nearer cores turn the normal faster than the steps resolve
+      constexpr double kApart = 1e-4;  // if cores are nearer, the normal turns faster than the steps resolve
       if (d.status == DistanceStatus::exact &&
           (shape.shape.unbounded() || d.distance + body.r + shape.shape.margin > kApart)) {
         const Derivatives parts = derivativesOf(body, shape.shape, base, at, d, random);
@@ -244,7 +246,7 @@ int main(int argc, char** argv) {
         most.smooth = std::max(most.smooth, parts.smooth);
         most.turn = std::max(most.turn, parts.turn);
       }
-      // The witness points face each other: an ulp of the normal moves a core's point by rho times that.
+      // The witness points face each other. An ulp of the normal moves a core's point by rho ulps.
       const double off = (d.point[1] - d.point[0] - d.distance * d.normal).norm();
       askew = std::max(askew, off / (16 * 2.2e-16 * (body.volume->radii().rho + 4)));
       worst = std::max(worst, error);

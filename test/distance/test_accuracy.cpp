@@ -56,7 +56,8 @@ TEST_CASE(
     Isometry3d poseB =
         pose(random.rotation(tilt) * poseA.linear(), poseA.translation() + 2.0 * random.direction());
     const Distance far = distance(*a.volume, poseA, *b.volume, poseB);
-    // Cores at least a millimetre apart: the normal of touching cores has no second digit to agree on.
+    // Cores are at least a millimetre apart, because the normal of touching cores has no second digit to
+    // compare.
     const double target = 0.001 - a.r - b.r + std::pow(10.0, random.uniform(-4, 0)) * random.below(4);
     poseB.translation() += (target - far.distance) * far.normal;
 
@@ -81,5 +82,6 @@ TEST_CASE(
   CHECK(worstDistance < 1e-13);
   CHECK(worstNormal < 1e-10);
   CHECK(worstPoint <
-        1e-13 * std::max(1.0, R));  // a unit vector's rounding turns a big sphere's point R times as far
+        1e-13 *
+            std::max(1.0, R));  // the rounding of a unit vector moves a big sphere's point by R times that
 }

@@ -1,5 +1,5 @@
-// A ball beside and in each simple shape of few features: closed form, against supports in long double that
-// share nothing with it.
+// A ball next to and inside each simple shape with few features: closed form, compared with supports in long
+// double that share no code with it.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -16,7 +16,8 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// A place in the shape's frame where ways out are equally long, or the surface is near by `off` (m).
+/// A place in the shape's frame where several ways out are equally long, or where the surface is at the
+/// distance `off` (m).
 Vector3d specialPlace(const Shape& s, Random& random, double off) {
   const Vector3d half =
       s.kind == ShapeKind::box ? s.size : Vector3d(s.radius + 0.01, s.radius + 0.01, s.half + 0.01);
@@ -62,7 +63,7 @@ TEST_CASE("A ball and a shape of few features are exact wherever the ball's cent
       const Distance found = distance(ball.shape, there, shape.shape, at);
       REQUIRE(found.status == DistanceStatus::exact);
       const ReferenceShape a = ball.posed(there), b = shape.posed(at);
-      // Poses, normals and lengths are good to a few roundings of some 4 m.
+      // Poses, normals and lengths are accurate to a few roundings of about 4 m.
       const double rounding = found.upper - found.lower + 32 * 2.2e-16 * 4;
       CHECK(found.upper - found.lower < 1e-12);
       const Vector3L n = found.normal.cast<long double>().normalized();
@@ -70,7 +71,7 @@ TEST_CASE("A ball and a shape of few features are exact wherever the ball's cent
       CHECK(static_cast<double>(widestGapOverDirections(a, b, 100)) <= found.upper + rounding);
       const Vector3d along = found.point[1] - found.point[0] - found.distance * found.normal;
       CHECK(along.norm() <= rounding);
-      // The shape's point is on the shape: no direction parts it from there.
+      // The shape's point is on the shape: no direction separates the point from the shape.
       const ReferenceShape point = centre.posed(pose(Eigen::Matrix3d::Identity(), found.point[1]));
       CHECK(static_cast<double>(widestGapOverDirections(point, b, 100)) <= rounding);
 

@@ -1,4 +1,4 @@
-// Answers that are not solved to rounding: how far out one has to go for them, and that their bounds hold.
+// Answers that are not solved to rounding: which extremes are needed for them, and that their bounds hold.
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -28,11 +28,11 @@ Covered make(Cloud cloud, double r, double R) {
 
 struct Outcome {
   int exact = 0, bounded = 0;
-  double widest = 0;  // between the bounds (m)
+  double widest = 0;  // width between the bounds (m)
 };
 
-// Pairs at gaps of the cores from 1 m down to 1e-18 m, at turns of all sizes,
-// against the long double reference.
+// Checks pairs at gaps of the cores from 1 m down to 1e-18 m, at turns of all sizes, against the long double
+// reference.
 Outcome check(const std::vector<Covered>& first, const std::vector<Covered>& second, int count) {
   Random random(1);
   Outcome outcome;
@@ -56,16 +56,17 @@ Outcome check(const std::vector<Covered>& first, const std::vector<Covered>& sec
     if (d.status != DistanceStatus::exact && d.status != DistanceStatus::bounded) continue;
     ++(d.status == DistanceStatus::exact ? outcome.exact : outcome.bounded);
     outcome.widest = std::max(outcome.widest, d.upper - d.lower);
-    if (d.status == DistanceStatus::exact && i % 20 != 0) continue;  // the others are tested elsewhere
+    if (d.status == DistanceStatus::exact && i % 20 != 0)
+      continue;  // the other exact answers are tested elsewhere
     CAPTURE(i, a.cloud.size(), a.radii.R, b.cloud.size(), b.radii.R);
     const ReferenceBody x = referenceBody(a.cloud, a.radii.r, a.radii.R),
                         y = referenceBody(b.cloud, b.radii.r, b.radii.R, at);
     const ReferenceDistance truth = referenceDistance(x, y, d.normal.cast<long double>());
-    // A few roundings of the placed points, in double; of the reference's own, R in long double.
+    // A few roundings of the placed points in double, and the reference's own rounding of R in long double.
     const long double rounding = 4e-15L + 1e-18L * static_cast<long double>(a.radii.R + b.radii.R);
     CHECK(d.lower <= referenceGap(x, y, d.normal.cast<long double>().normalized()) + rounding);
     if (!std::isfinite(truth.distance))
-      continue;  // cores that touch to rounding: no gap is seen between them
+      continue;  // the cores touch to rounding, so the reference finds no gap between them
     CHECK(d.lower <= truth.distance + truth.gap + rounding);
     CHECK(d.upper >= truth.distance - rounding);
   }
@@ -76,7 +77,7 @@ Outcome check(const std::vector<Covered>& first, const std::vector<Covered>& sec
 
 TEST_CASE(
     "Where regions of normals are as narrow as rounding an answer may be bounded, and the bounds hold") {
-  const Cloud speck = box(1e-4, 1e-4, 1e-4);  // at R = 1e10 m its faces own 1e-14 rad
+  const Cloud speck = box(1e-4, 1e-4, 1e-4);  // at R = 1e10 m the regions of its faces are 1e-14 rad wide
   const std::vector<Covered> narrow{make(speck, 0, 1e10), make(speck, 1e-3, 1e10), make(speck, 0.01, 1e8)};
   const std::vector<Covered> others{make(box(0.2, 0.3, 0.4), 0, 10),    make(plate(0.3, 0.2), 0, 0.2),
                                     make(needle(0.5), 1e-3, 0.26),      make(cylinder(0.1, 0.3), 0.01, 1),
@@ -84,7 +85,7 @@ TEST_CASE(
   const Outcome outcome = check(narrow, others, 6000);
   INFO(outcome.exact << " exact, " << outcome.bounded << " bounded, by up to " << outcome.widest << " m");
   CHECK(outcome.exact > 5000);
-  CHECK(outcome.bounded > 0);    // or this test says nothing
+  CHECK(outcome.bounded > 0);    // otherwise the test would check nothing
   CHECK(outcome.widest < 2e-4);  // the speck's own size
 }
 

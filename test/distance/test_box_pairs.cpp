@@ -1,5 +1,5 @@
-// Two boxes in each other by separating axes, against supports in long double along all that may be least and
-// many others.
+// Two overlapping boxes by separating axes, compared with supports in long double along all candidates for
+// the least overlap and many other directions.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -15,7 +15,7 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// A box, a cube, a plate of 1 mm, a needle, or one without thickness.
+/// A box, a cube, a plate of 1 mm, a needle, or a box without thickness.
 TestShape someBox(Random& random) {
   TestShape shape = randomShape("box", random);
   Vector3d& half = shape.shape.size;
@@ -38,7 +38,7 @@ TestShape someBox(Random& random) {
   return shape;
 }
 
-/// Turned by anything, by quarter turns, or off one of these by 1e-17 to 1e-2 rad.
+/// Turned at random, by quarter turns, or off one of these by 1e-17 to 1e-2 rad.
 Matrix3d someTurn(Random& random) {
   if (random.below(3) == 0) return random.rotation();
   Matrix3d turn = Matrix3d::Identity();
@@ -63,7 +63,7 @@ TEST_CASE("Two boxes are as far apart or as deep as supports say, whatever is le
     const Distance found = distance(one.shape, at, other.shape, there);
     deep += found.distance < 0.0;
     exact += found.status == DistanceStatus::exact;
-    // Poses, normals and lengths are good to a few roundings of some 3 m.
+    // Poses, normals and lengths are accurate to a few roundings of about 3 m.
     const double rounding = found.upper - found.lower + 32 * 2.2e-16 * 3;
     CHECK(found.upper - found.lower < (found.status == DistanceStatus::exact ? 1e-12 : 1e-8));
     const ReferenceShape a = one.posed(at), b = other.posed(there);
@@ -88,7 +88,7 @@ TEST_CASE("Two boxes are as far apart or as deep as supports say, whatever is le
     const Vector3d opposite = found.point[1] - found.point[0] - found.distance * found.normal;
     beside += opposite.norm() > rounding;
     CHECK(opposite.norm() <= (found.distance < 0.0 ? rounding : 1e-7));
-    for (const bool first : {true, false}) {  // each point in its own box
+    for (const bool first : {true, false}) {  // each point must be in its own box
       const Vector3d local = (first ? at : there).inverse() * found.point[first ? 0 : 1];
       const Vector3d outside = local.cwiseAbs() - (first ? one : other).shape.size;
       outsideOne += outside.maxCoeff() > rounding;
@@ -102,7 +102,7 @@ TEST_CASE("Two boxes are as far apart or as deep as supports say, whatever is le
     CHECK_FALSE(isFartherThan(found.upper, one.shape, at, other.shape, there));
   }
   CHECK(deep > 1500);
-  // What is left to GJK and EPA: edges next to each other, 1e-15 to 1e-5 rad from parallel.
+  // These are left to GJK and EPA: edges next to each other, 1e-15 to 1e-5 rad from parallel.
   CHECK(exact > 0.997 * 4000);
   CHECK(beside < 0.003 * 4000);
   CHECK(outsideOne < 0.003 * 4000);

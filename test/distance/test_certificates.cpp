@@ -1,4 +1,4 @@
-// The bounds of an answer contain the truth as they stand, and poses are judged one by one.
+// The bounds of an answer contain the true value exactly as they are, and poses are checked one by one.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
@@ -21,8 +21,8 @@ Cloud scaled(Cloud cloud, double scale) {
   return cloud;
 }
 
-/// The pair with the first body's origin for the world's, as long double sees it: far from the world's origin
-/// the difference of the origins is what counts, and it is exact there.
+/// The pair with the first body's origin as the world's origin, for long double. Far from the world's origin
+/// only the difference of the origins matters, and it is exact there.
 Isometry3d seenFrom(const Isometry3d& a, Isometry3d b) {
   b.translation() -= a.translation();
   return b;
@@ -30,7 +30,7 @@ Isometry3d seenFrom(const Isometry3d& a, Isometry3d b) {
 
 Isometry3d turnOnly(const Isometry3d& a) { return pose(a.linear(), Vector3d::Zero()); }
 
-/// Both bounds against the truth, which is known to `slack`.
+/// Checks both bounds against the true value, which is known to `slack`.
 void checkHolds(const Distance& d, long double truth, long double alongNormal, long double slack) {
   CHECK(d.lower <= truth + slack);
   CHECK(d.upper >= truth - slack);
@@ -38,7 +38,7 @@ void checkHolds(const Distance& d, long double truth, long double alongNormal, l
   CHECK((d.lower <= d.distance && d.distance <= d.upper));
 }
 
-/// The bounds hold the truth; true if it is known to a tenth of their width.
+/// Checks that the bounds contain the true value. @returns true if that is known to a tenth of their width.
 template <class Real>
 bool holds(const Distance& d, const Enclosure<Real>& truth) {
   CHECK(truth.holdsLower(d.lower));
@@ -71,11 +71,12 @@ TEST_CASE(
           pb.translation() += (gap - far.distance) * far.normal;
           const Distance d = distance(*a, pa, *b, pb), e = distance(*b, pb, *a, pa);
           if (d.status != DistanceStatus::exact)
-            continue;  // 10 km away a pair of micrometres may land anywhere
+            continue;  // 10 km away, a pair of micrometres may end up in any position
           CAPTURE(scale, R, r, i);
           const double fine = 0.02 * (d.upper - d.lower);
           const Placed x{cloudA, r * scale, R * scale, pa}, y{cloudB, 0.0, R * scale, pb};
-          // A search in 113 bits takes long; along the normal alone the truth is known as well nearly always.
+          // A search in 113 bits takes long. Along the normal alone, the true value is nearly always known as
+          // well.
           if (roundings<long double>(2 * R * scale + 4 * scale) <= fine)
             known += holds(d, enclose<long double>(d, x, y, fine, true));
           else
@@ -84,7 +85,7 @@ TEST_CASE(
           CHECK((e.lower <= d.upper && d.lower <= e.upper));
         }
       }
-  CHECK(known >= 0.85 * exact);  // the rest is compared with a truth that is known less well
+  CHECK(known >= 0.85 * exact);  // for the rest, the true value is known less accurately
 }
 
 TEST_CASE(
@@ -139,7 +140,7 @@ TEST_CASE("lower <= truth <= upper for a volume and each shape, and for each two
         const Distance d = distance(p.shape, pa, q.shape, pb), e = distance(q.shape, pb, p.shape, pa);
         const ReferenceShape x = p.posed(turnOnly(pa)), y = q.posed(seenFrom(pa, pb));
         const Vector3L n = d.normal.cast<long double>().normalized();
-        // Where the reference halves no more, the last digits of a long double are open.
+        // When the reference stops halving, the last digits of a long double are uncertain.
         constexpr long double kReference = 2e-17L;
         checkHolds(d, referenceDistance(x, y, n).distance, referenceGap(x, y, n), kReference);
         CHECK((e.lower == d.lower && e.upper == d.upper && e.distance == d.distance));
@@ -193,7 +194,7 @@ TEST_CASE(
     REQUIRE((d.lower <= d.distance && d.distance <= d.upper));
     REQUIRE(static_cast<double>(referenceGap(x, y, n)) <= d.upper + rounding);
     ++all;
-    if (d.status != DistanceStatus::exact) continue;  // edges parallel to 1e-12
+    if (d.status != DistanceStatus::exact) continue;  // edges that are parallel to 1e-12
     ++exact;
     CHECK(std::abs(static_cast<double>(referenceGap(x, y, n)) - d.distance) <= rounding);
     CHECK((d.point[1] - d.point[0]).norm() >= d.distance - rounding);

@@ -1,5 +1,5 @@
-// A segment, a triangle or a box deep in an STP-BV: the depth from the cones of its normals, against EPA,
-// which shares no step with it, and against searches over all directions in long double.
+// A segment, a triangle or a box deep in an STP-BV: the depth from the cones of its normals, compared with
+// EPA, which is computed differently in every step, and with searches over all directions in long double.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -37,7 +37,7 @@ std::vector<ConeBody> coneBodies() {
   return all;
 }
 
-/// From much smaller than the bodies to much larger, also thin.
+/// Sizes from much smaller than the bodies to much larger; some shapes are thin.
 TestShape randomFlat(Random& random) {
   const double size = std::pow(10.0, random.uniform(-2.5, 0));
   const auto side = [&] { return size * (random.below(6) == 0 ? 1e-4 : random.uniform(0.1, 1)); };
@@ -53,7 +53,7 @@ TestShape randomFlat(Random& random) {
   return {"triangle", Shape::triangleOf((*corners)[0], (*corners)[1], (*corners)[2]), corners};
 }
 
-/// Often with the axes of the body, often with its centre.
+/// A pose in the body. The axes are often those of the body, and the position is often its centre.
 Isometry3d within(const ConeBody& body, const Shape& shape, Random& random) {
   Eigen::Matrix3d turn = random.rotation();
   const int kind = random.below(4);
@@ -63,7 +63,7 @@ Isometry3d within(const ConeBody& body, const Shape& shape, Random& random) {
   return pose(turn, body.volume->centre() + off * random.direction() - turn * shape.centre);
 }
 
-/// What a shape's cones of normals tell, if they do, and EPA beside it, each from a query of its own.
+/// The result of a shape's cones of normals, if they decide, and that of EPA, each from a query of its own.
 struct ConesAndEpa {
   detail::RelativePose posed;
   detail::ShapeQuery query, again;
@@ -95,14 +95,14 @@ TEST_CASE("The depth from a shape's cones of normals is what EPA finds") {
     if (!found) continue;
     ++told;
     CAPTURE(i, body.R, flat.name, found->at.gap, found->bound, epa.at.gap, epa.bound);
-    // Each bound holds for the other's answer, and no wider gap was there. Roundings of the gap add up.
+    // Each bound holds for the other's answer, so there was no wider gap. Roundings of the gap add up.
     const double rounding = 4 * q.rounding.gap;
     REQUIRE(found->bound >= found->at.gap);
     REQUIRE(epa.at.gap <= found->bound + rounding);
     REQUIRE(found->at.gap <= epa.bound + rounding);
     REQUIRE(epa.at.gap <= found->at.gap + rounding + q.rounding.across);
     REQUIRE(found->bound - found->at.gap <= rounding + q.rounding.across);
-    // The point is the shape's last along the normal, and opposite the volume's.
+    // The point is the last of the shape along the normal, and it is opposite the volume's point.
     REQUIRE(std::abs(found->at.n.dot(found->at.y - q.facing(found->at.n))) <= rounding);
     int steps = 0;
     const detail::SupportPoint view = detail::viewVolume(*body.volume, found->at.n, -1, steps);
@@ -148,7 +148,7 @@ TEST_CASE("No direction of many leads out of a volume sooner than the cones of n
   int told = 0;
   for (int i = 0; i < 300; ++i) {
     const ConeBody& body = bodies[static_cast<std::size_t>(i) % bodies.size()];
-    if (body.R > 100) continue;  // the reference's long double is good to R times its rounding
+    if (body.R > 100) continue;  // the reference's long double has an error of R times its rounding
     const TestShape flat = randomFlat(random);
     const Shape& shape = flat.shape;
     const Isometry3d at = within(body, shape, random);
@@ -182,7 +182,7 @@ TEST_CASE("A triangle, a box and a capsule deep in a volume take a bounded numbe
   }
   CAPTURE(deep, most, static_cast<double>(looks) / deep);
   REQUIRE(deep > 1000);
-  CHECK(looks <= 26L * deep);  // 23.2 now; EPA takes 45 and more
+  CHECK(looks <= 26L * deep);  // 23.2 at present; EPA takes at least 45
   CHECK(most <= 120);
 }
 
@@ -225,8 +225,8 @@ TEST_CASE(
     const Isometry3d at = pose(random.rotation(), random.uniform(0, 0.02) * random.direction());
     const Distance d = distance(*volume, Isometry3d::Identity(), shape, at);
     CAPTURE(i, size, d.lower, d.upper);
-    REQUIRE(d.upper - d.lower <= 1e-12);  // rho's rounding; EPA's bounds are up to 1e-3 apart here
-    // How far the shape leaves the body along a normal.
+    REQUIRE(d.upper - d.lower <= 1e-12);  // the rounding of rho; EPA's bounds are up to 1e-3 apart here
+    // How far the shape must move along a normal to leave the body.
     const detail::RelativePose posed(Isometry3d::Identity(), at);
     const detail::ShapeQuery q(*volume, shape, posed);
     const auto leaves = [&](const Vector3d& n) { return volume->support(n) - n.dot(q.facing(n)); };

@@ -1,6 +1,6 @@
-// Through contact and through the depth of both margins: the sign is right, the distance
-// continuous, the normal turns no faster than docs/theory.md, 6 allows, and only deeper
-// than r1 + r2 is an answer anything but exact.
+// Motions through contact and through the depth of both margins: the sign is right, the distance is
+// continuous, the normal turns no faster than docs/theory.md, 6 allows, and answers are inexact only at
+// depths of more than r1 + r2.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <functional>
@@ -23,11 +23,11 @@ constexpr double kRoundoff = 2.2e-16, kMargin = 0.01;
 struct Pair {
   const char* name;
   Cloud a, b;
-  Matrix3d turn;  ///< of the second body, which lies above the first
+  Matrix3d turn;  ///< rotation of the second body, which lies above the first
   Vector3d aside;
 };
 
-/// Two bodies in turn that meet face to face, rim to rim, edge to edge, corner to face and side to side.
+/// Pairs of bodies that meet face to face, rim to rim, edge to edge, corner to face and side to side.
 std::vector<Pair> pairs() {
   const Matrix3d straight = Matrix3d::Identity();
   const Matrix3d onEdge = Eigen::AngleAxisd(M_PI / 4, Vector3d::UnitY()).toRotationMatrix();
@@ -51,11 +51,12 @@ struct Sweep {
   double margins() const { return a.radii().r + b.radii().r; }
   double bigRadii() const { return a.radii().R + b.radii().R; }
 
-  /// `b` at `poseAt(t)` for t from -1 to 1, in steps that move no point of it further than `length` (m) and
-  /// turn it by `angle` (rad).
+  /// Moves `b` to `poseAt(t)` for t from -1 to 1, in steps that move no point of it further than `length` (m)
+  /// and turn it by `angle` (rad).
   void run(const std::function<Isometry3d(double)>& poseAt, int steps, double length, double angle,
            bool warm) const {
-    // A core point is good to some ulp of the big radii, a normal to that over what curves the gap.
+    // A core point is accurate to some ulps of the big radii, a normal to that divided by what curves the
+    // gap.
     const double rounding = 8 * kRoundoff * (bigRadii() + 2);
     PairCache cache;
     Distance last;
@@ -66,11 +67,11 @@ struct Sweep {
       CAPTURE(i, d.distance);
       REQUIRE(d.status != DistanceStatus::invalid);
       if (d.distance > rounding - margins()) REQUIRE(d.status == DistanceStatus::exact);
-      // Both bounds are rounded outward, for bodies and distances of some 4 m in all.
+      // Both bounds are rounded outward, for a sum of sizes and distances of about 4 m.
       if (d.status == DistanceStatus::exact) REQUIRE(d.upper - d.lower <= rounding + 3 * kGapRounding * 4);
       REQUIRE(d.lower <= d.distance);
       REQUIRE(d.distance <= d.upper);
-      // The witness points are on the line of the normal, as far apart as the bodies are: signed.
+      // The witness points are on the normal's line, and their signed distance is the answer's.
       const double off = (d.point[1] - d.point[0] - d.distance * d.normal).norm();
       REQUIRE(off <= rounding);
       if (i > 0) {
@@ -78,7 +79,7 @@ struct Sweep {
         const double core = std::min(d.distance, last.distance) + margins();
         if (core > 0) {
           const double turn = 2 * std::asin(std::min(1.0, 0.5 * (d.normal - last.normal).norm()));
-          // A turn of one body by `angle` adds what it carries the normal along.
+          // A turn of one body by `angle` also carries the normal along.
           worstTurn = std::max(worstTurn, (turn - angle - 2 * rounding / core) * core / length);
         }
       }
@@ -100,7 +101,7 @@ TEST_CASE(
     const auto a = StpBv::build(pair.a, {kMargin, R}), b = StpBv::build(pair.b, {kMargin, R});
     const Sweep sweep{*a, *b};
     Isometry3d touching = pose(pair.turn, pair.aside + Vector3d(0, 0, 1));
-    for (int i = 0; i < 60; ++i)  // down to contact: never further than the distance
+    for (int i = 0; i < 60; ++i)  // moves down to contact, by at most the distance each time
       touching.translation().z() -= distance(*a, Isometry3d::Identity(), *b, touching).distance;
     REQUIRE(std::abs(distance(*a, Isometry3d::Identity(), *b, touching).distance) < 1e-13);
     for (const double half : {1.5 * sweep.margins(), 1e-3, 1e-6, 1e-9}) {
@@ -110,13 +111,13 @@ TEST_CASE(
       };
       const int steps = 300;
       sweep.run(down, steps, 2 * half / steps, 0, warm);
-      // Before contact apart, behind it in each other.
+      // Before contact the bodies are apart, after it they overlap.
       for (const double t : {-1.0, -0.5, 0.5, 1.0}) {
         const Distance d = distance(*a, Isometry3d::Identity(), *b, down(t));
         CHECK((t < 0) == (d.distance > 0));
       }
     }
-    // Across the depth of both margins, where the search of overlapping cores takes over.
+    // Passes the depth of both margins, where the search of overlapping cores takes over.
     Isometry3d deep = touching;
     for (int i = 0; i < 60; ++i) {
       const Distance d = distance(*a, Isometry3d::Identity(), *b, deep);
@@ -156,7 +157,7 @@ TEST_CASE("A rotation into contact and past both margins: continuity, turn of th
       };
       const int steps = 300;
       const double angle = 2 * half / steps;
-      const double reach = 0.4;  // m, no point of a body is further from its origin
+      const double reach = 0.4;  // m, an upper bound on the distance of a body's points from its origin
       sweep.run(turned, steps, angle * reach, angle, warm);
     }
   }

@@ -1,5 +1,4 @@
-// The distance is C1: its gradient is what differences say, and the normal
-// turns no faster than theory allows.
+// The distance is C1: its gradient equals the differences, and the normal turns no faster than theory allows.
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -21,8 +20,8 @@ Isometry3d turned(const Isometry3d& p, const Vector3d& axis, double angle) {
 /// Slides `b` by steps of `length` and checks every turn of the normal against docs/theory.md, 6.
 void sweep(const StpBv& a, const Isometry3d& poseA, const StpBv& b, Isometry3d poseB,
            const Vector3d& direction, double length, int steps) {
-  // A normal is good to the rounding of the core points (8 ulp of both radii)
-  // over the weakest curvature there is.
+  // A normal is accurate to the rounding of the core points (8 ulps of both radii) divided by the weakest
+  // curvature.
   const double margins = a.radii().r + b.radii().r;
   const Vector3d start = poseB.translation();
   PairCache cache;
@@ -31,7 +30,7 @@ void sweep(const StpBv& a, const Isometry3d& poseA, const StpBv& b, Isometry3d p
   for (int i = 1; i <= steps; ++i) {
     poseB.translation() = start + i * length * direction;
     const Distance d = distance(a, poseA, b, poseB, &cache);
-    if (d.status == DistanceStatus::local) {  // a bulging body slid in too deep
+    if (d.status == DistanceStatus::local) {  // a bulging body moved too deep
       REQUIRE(d.distance <= 1e-12 - margins);
       break;
     }
@@ -54,7 +53,8 @@ TEST_CASE("The gradient with respect to both bodies' twists is what central diff
                                      StpBv::build(randomHull(60, {0.2, 0.3, 0.1}, 4), {0.01, R}),
                                      StpBv::build({Vector3d(0, 0, -0.2), Vector3d(0.1, 0, 0.2)}, {0.01, R})};
   Random random(5);
-  constexpr double kStep = 1e-8;  // the gradient is only Lipschitz across a boundary: error about step / core
+  constexpr double kStep =
+      1e-8;  // across a boundary the gradient is only Lipschitz, so the error is about step / core
   double worst = 0;
   for (int i = 0; i < 200; ++i) {
     const StpBv& a = *pool[static_cast<std::size_t>(random.below(4))];
@@ -96,7 +96,7 @@ TEST_CASE("The normal never turns faster than the step over the distance plus bo
                    flat = StpBv::build(plate(0.5, 0.5), {r, R}),
                    ball = StpBv::build(geodesicSphere(0.2, 2), {r, R});
   const Isometry3d origin = Isometry3d::Identity();
-  // Places `b` at `gap` above the cube along z, its reference at the lateral position given.
+  // Places `b` at `gap` above the cube along z, with its origin at the given lateral position.
   const auto above = [&](const StpBv& b, const Matrix3d& rotation, const Vector3d& lateral) {
     Isometry3d p = pose(rotation, lateral + Vector3d(0, 0, 1));
     const Distance d = distance(*cube, origin, b, p);
@@ -152,7 +152,7 @@ TEST_CASE("Rocking a face or an edge through parallel turns the normal steadily"
     const Distance d = distance(*cube, Isometry3d::Identity(), *cube, p, &cache);
     REQUIRE(d.status == DistanceStatus::exact);
     if (i > -200) {
-      // The body's points move by at most step * 0.2 m; the turn itself adds the step once for each body.
+      // The body's points move by at most step * 0.2 m. The turn itself adds the step once for each body.
       const double core = std::min(d.distance, last.distance) + 0.02;
       const double rounding = 2 * 8 * 2.2e-16 * (2 * R + 2) / core;
       CHECK((d.normal - last.normal).norm() <= step * (2 + 0.2 / core) + rounding);

@@ -1,5 +1,5 @@
-// First and second derivatives of an STP-BV's distance to every other body: central differences where the
-// distance is smooth, one-sided ones on both sides of the region boundaries.
+// First and second derivatives of an STP-BV's distance to every other body, compared with central differences
+// where the distance is smooth, and with one-sided ones on both sides of the region boundaries.
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -40,7 +40,7 @@ DerivativePair randomPair(const std::string& name, Random& random) {
   return pair;
 }
 
-/// Poses at which the bodies are this far apart, in whatever direction. False where none is near.
+/// Finds poses at which the bodies are `gap` apart, in a random direction. False if it finds none.
 bool placed(const DerivativePair& pair, double gap, Random& random, Poses& at) {
   at = {pose(random.rotation(), random.direction()), pose(random.rotation(), 2 * random.direction())};
   for (int i = 0; i < 30; ++i) {
@@ -57,20 +57,21 @@ Twists randomTwists(Random& random) {
   return t;
 }
 
-/// How far a difference of answers may be from a derivative: what rounding of an answer does to it.
+/// Largest error of a difference of answers compared with a derivative, from the answers' rounding.
 struct DerivativeRounding {
   DerivativeRounding(const DerivativePair& pair, const Distance& d, double h) {
     const double core = d.distance + pair.margins();
     distance = 16 * kEpsilon / h;  // numbers up to 4 m
-    // The core's point moves rho an ulp of the normal, the normal that over the cores' distance.
+    // An ulp of the normal moves the core's point by rho ulps. That changes the normal by the same divided by
+    // the cores' distance.
     point = 16 * kEpsilon * (pair.rho() + 4) * (1 + 1 / core) / h;
   }
   double distance, point;
 };
 
-/// Everything an answer says about the motion along the twists, to compare at once.
+/// All rates of an answer along the twists, for comparison.
 struct Rates {
-  double speed, second;  ///< of the distance
+  double speed, second;  ///< rates of the distance
   Vector3d normal, point[2];
 };
 
@@ -102,7 +103,8 @@ TEST_CASE(
       const Twists twists = randomTwists(random);
       const Rates rates = ratesOf(d, h, at, twists);
 
-      // Two central differences, extrapolated: the error is of the fourth order in step over cores' distance.
+      // Two central differences, extrapolated: the error is of the fourth order in step divided by the cores'
+      // distance.
       const double step = 1e-3 * (d.distance + pair.margins());
       Distance side[4];
       Twists g[4];
@@ -121,7 +123,8 @@ TEST_CASE(
       };
       using Number = Eigen::Matrix<double, 1, 1>;
       const DerivativeRounding rounding(pair, d, step);
-      // Truncation: (1e-3)^4 of levers up to 3 m over the cores' distance, to the power of the derivative.
+      // Truncation error: (1e-3)^4 of levers up to 3 m divided by the cores' distance, to the power of the
+      // derivative.
       const double lever = 3 + 1 / (d.distance + pair.margins());
       const double speed = central([&](int k) { return Number(side[k].distance); })(0);
       CHECK(std::abs(speed - rates.speed) <= rounding.distance + 1e-11 * lever);
@@ -157,7 +160,7 @@ TEST_CASE(
         const Poses at = after(start, twists, t);
         return pair.signature(at, pair.ask(at));
       };
-      // Along the path to the first change of a feature, and onto it.
+      // Move along the path to the first change of a feature.
       const double stride = 0.02 * (pair.ask(start).distance + pair.margins());
       double low = 0, high = 0;
       const std::vector<int> before = signatureAt(0);
@@ -187,7 +190,7 @@ TEST_CASE(
       bool whole = true;
       for (int side = 0; side < 2 && whole; ++side) {
         CAPTURE(side);
-        // From just off the boundary, away from it: three equal steps, exact to the third order.
+        // From just beside the boundary, away from it: three equal steps, exact to the third order.
         const double sign = side ? 1 : -1, off = 1e-9 * core, step = 3e-4 * core;
         const double from = (side ? high : low) + sign * off;
         const Poses base = after(start, twists, from);
@@ -230,7 +233,7 @@ TEST_CASE(
     }
     CAPTURE(name, boundaries, kinks);
     CHECK(boundaries >= 20);
-    CHECK(kinks >= 20);  // real boundaries: the second derivative does jump
+    CHECK(kinks >= 20);  // real boundaries, at which the second derivative jumps
   }
 }
 
@@ -250,8 +253,8 @@ TEST_CASE(
         DistanceRate moves;
         REQUIRE(hessian(a, here, b, there, d, h));
         REQUIRE(rate(a, here, b, there, d, twists, moves));
-        const double rounding =
-            4 * kEpsilon * (0.25 + radius) / apart;  // of the distance, against what is left
+        const double rounding = 4 * kEpsilon * (0.25 + radius) /
+                                apart;  // rounding of the distance, relative to the remaining distance
         CHECK((moves.normal - turn).norm() <= rounding * turn.norm());
         CHECK((h.normal * twists - turn).norm() <= rounding * turn.norm());
         CHECK(std::abs(twists.dot(h.matrix * twists) - turn.dot(v)) <= rounding * turn.dot(v));

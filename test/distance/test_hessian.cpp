@@ -1,4 +1,4 @@
-// Second derivatives and the velocities of normal and witness points against central differences.
+// Second derivatives, and the velocities of normal and witness points, compared with central differences.
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -32,7 +32,7 @@ TEST_CASE("The Hessian and the velocities of normal and witness points are what 
                                      StpBv::build({Vector3d(0, 0, -0.2), Vector3d(0.1, 0, 0.2)}, {0.01, R}),
                                      StpBv::build({Vector3d(0.1, 0, 0)}, {0.05, R})};
   Random random(17), motions(18);
-  constexpr double kStep = 4e-6;  // of a difference of the fourth order
+  constexpr double kStep = 4e-6;  // for a difference of the fourth order
   int compared = 0, kinds[3][3] = {};
   double worst = 0;
   for (int i = 0; i < 400; ++i) {
@@ -46,9 +46,9 @@ TEST_CASE("The Hessian and the velocities of normal and witness points are what 
     DistanceHessian h;
     if (!hessian(a, poseA, b, poseB, d, h)) continue;
     CHECK(h.matrix == h.matrix.transpose());
-    // The rates are the matrices times the twists, by another order of the same sums:
-    // rounding of levers below 3 m over radii of curvature of at least a centimetre,
-    // magnified where edges cross at a small angle.
+    // The rates are the matrices times the twists, in another order of the same sums. So they differ by
+    // rounding of levers below 3 m divided by radii of curvature of at least a centimetre, magnified where
+    // edges cross at a small angle.
     BodyTwists twists;
     for (Eigen::Index k = 0; k < 12; ++k) twists[k] = motions.uniform(-1, 1);
     DistanceRate moves;
@@ -80,8 +80,8 @@ TEST_CASE("The Hessian and the velocities of normal and witness points are what 
       for (std::size_t p = 0; p < 2; ++p) point[p].col(k) = central([&](int s) { return side[s].point[p]; });
     }
     if (!smooth) continue;
-    // The gradient is taken in the moved bodies' frames, whose rotations do not commute; the symmetric part
-    // is the second derivative along the exponential.
+    // The gradient is taken in the frames of the moved bodies, whose rotations do not commute. The symmetric
+    // part is the second derivative along the exponential map.
     const Eigen::Matrix<double, 12, 12> symmetric = 0.5 * (second + second.transpose());
     const double scale = 1 + h.matrix.cwiseAbs().maxCoeff() + h.normal.cwiseAbs().maxCoeff();
     worst = std::max(worst, (symmetric - h.matrix).cwiseAbs().maxCoeff() / scale);
@@ -91,7 +91,7 @@ TEST_CASE("The Hessian and the velocities of normal and witness points are what 
     ++compared;
     ++kinds[static_cast<int>(a.kind(d.patch[0]))][static_cast<int>(b.kind(d.patch[1]))];
   }
-  CHECK(worst < 5e-9);  // rounding of the normal over the step, and the step to the fourth
+  CHECK(worst < 5e-9);  // the normal's rounding divided by the step, and the step to the fourth power
   CHECK(compared > 150);
   CHECK(kinds[1][1] > 0);  // two tori
   CHECK(kinds[0][2] + kinds[2][0] > 0);
@@ -152,7 +152,8 @@ TEST_CASE("Two simple shapes: Hessian, normal and witness points move as central
           normal.col(k) = central([&](int s) { return side[s].normal; });
           for (std::size_t p = 0; p < 2; ++p)
             point[p].col(k) = central([&](int s) { return side[s].point[p]; });
-          // A kink within the step shows in the fourth difference; smooth parts and rounding add 1e-8.
+          // A kink within the step shows up in the fourth difference. Smooth parts and rounding contribute
+          // 1e-8.
           const Vector12 kink = (g[4] - 4 * g[3] + 6 * g[2] - 4 * g[1] + g[0]) / kStep;
           smooth = smooth && kink.norm() <= kKink * (1 + second12.col(k).norm());
         }
@@ -174,7 +175,7 @@ TEST_CASE("Two simple shapes: Hessian, normal and witness points move as central
 }
 
 TEST_CASE("The derivatives on a large sphere are those of two balls") {
-  // A witness point is good to the rounding of its normal times R.
+  // The error of a witness point is its normal's rounding times R.
   const double R = GENERATE(1.0, 1e3, 1e6), rounding = 1e-13 + 16 * 2.2e-16 * R;
   constexpr double kSmall = 0.03, kSide = 0.4, kHeight = 0.1, kRounding = 0.01;
   const StpBv::Ptr ball = StpBv::build({Vector3d(0.1, 0, 0.02)}, {kSmall, 1});
@@ -183,7 +184,7 @@ TEST_CASE("The derivatives on a large sphere are those of two balls") {
   using Vector = Eigen::Matrix<Real, 3, 1>;
   Random random(29);
   for (int i = 0; i < 100; ++i) {
-    // The plate's axes are the world's in another order, so that its pose is exact.
+    // The plate's axes are the world's axes in another order, so its pose is exact.
     Isometry3d posePlate = pose(Eigen::Matrix3d::Zero(), random.direction());
     for (int k = 0; k < 3; ++k) posePlate.linear()((k + i) % 3, k) = 1;
     const Vector3d above(random.uniform(-0.1, 0.1), random.uniform(-0.1, 0.1), random.uniform(0.1, 0.5));
@@ -210,7 +211,7 @@ TEST_CASE("The derivatives on a large sphere are those of two balls") {
       normal = moves.normal, onBall = moves.point[0], onPlate = moves.point[1];
     }
 
-    // The balls' centres, their velocities and accelerations.
+    // The balls' centres, with their velocities and accelerations.
     const Real rho = R - kRounding;
     const Vector low(0, 0, Real(kHeight) / 2 - std::sqrt(rho * rho - Real(kSide) * kSide / 2));
     const auto moving = [&](const Isometry3d& at, const Vector& centre, int body, Vector velocity[3]) {
@@ -256,7 +257,7 @@ TEST_CASE("The derivatives do not depend on the order of the bodies, whatever th
     Eigen::Matrix<double, 12, 12> matrix;
     matrix << g.matrix.bottomRightCorner<6, 6>(), g.matrix.bottomLeftCorner<6, 6>(),
         g.matrix.topRightCorner<6, 6>(), g.matrix.topLeftCorner<6, 6>();
-    // Witness points lie opposite each other to the rounding of their normal times R.
+    // Witness points are opposite each other up to the rounding of their normal times R.
     const double rounding = 1e-13 + 16 * 2.2e-16 * R;
     CHECK((matrix - h.matrix).cwiseAbs().maxCoeff() < rounding * h.matrix.cwiseAbs().maxCoeff());
     for (std::size_t p = 0; p < 2; ++p) {

@@ -1,5 +1,5 @@
-// Bodies whose faces and ends are level but for a hair: exact, with points opposite each other, against
-// supports in long double.
+// Bodies whose faces and ends are almost level: the answers must be exact, with points opposite each other,
+// compared with supports in long double.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <string>
@@ -15,7 +15,8 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// A body with a face or a flat end at the height `half.z()`, upwards or, if `down`, downwards as a cone's.
+/// A body with a face or a flat end at the height `half.z()`. It points upwards or, with `down`, downwards as
+/// a cone's.
 TestShape flatBody(const std::string& kind, const Vector3d& half, bool down, Random& random) {
   TestShape body{kind == "hull" || kind == "prism" ? "convex" : kind, {}, std::make_shared<Cloud>()};
   Cloud& cloud = *body.vertices;
@@ -62,14 +63,14 @@ TEST_CASE(
           const double gap = std::pow(10.0, -3 * random.below(4));
           const Isometry3d there = at * pose(turn, {aside(), aside(), half.z() + otherHalf.z() + gap});
           const Distance found = distance(one.shape, at, other.shape, there);
-          if (!(found.distance > 0.0)) continue;  // tilted into each other
+          if (!(found.distance > 0.0)) continue;  // tilted so that they overlap
           CAPTURE(first, second, tilt, i, found.distance);
-          if (gap < 1e-8 && found.status == DistanceStatus::bounded) {  // GJK takes it for a touch
+          if (gap < 1e-8 && found.status == DistanceStatus::bounded) {  // GJK counts it as touching
             ++open;
             continue;
           }
           REQUIRE(found.status == DistanceStatus::exact);
-          // Poses, normals and lengths are good to a few roundings of some 3 m.
+          // Poses, normals and lengths are accurate to a few roundings of about 3 m.
           const double rounding = found.upper - found.lower + 32 * 2.2e-16 * 3;
           CHECK(rounding < 1e-12);
           const ReferenceShape a = one.posed(at), b = other.posed(there);
@@ -80,7 +81,7 @@ TEST_CASE(
           CHECK((found.point[1] - found.point[0] - found.distance * found.normal).norm() <= rounding);
           TestShape dot = randomShape("sphere", random);
           dot.shape = Shape::sphere(0.0);
-          for (const int body : {0, 1}) {  // each point in its own body: no plane parts them
+          for (const int body : {0, 1}) {  // each point must be in its own body: no plane separates them
             const ReferenceShape point =
                 dot.posed(pose(Matrix3d::Identity(), found.point[body == 0 ? 0 : 1]));
             for (int k = 0; k < 20; ++k)
@@ -90,5 +91,5 @@ TEST_CASE(
           ++cases;
         }
   CHECK(cases > 0.9 * 30 * 13 * 30);
-  CHECK(open <= 1);  // of 2900 that are 1e-9 m apart; nine if level faces were not looked at after EPA
+  CHECK(open <= 1);  // of 2900 cases that are 1e-9 m apart; nine if level faces were not checked after EPA
 }

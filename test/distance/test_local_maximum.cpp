@@ -1,5 +1,5 @@
-// What arcs, segments and caps around a maximum prove, against the supports of such sets in all directions;
-// and that EPA of an STP-BV and a simple shape needs few steps with it.
+// What arcs, segments and caps around a maximum prove, compared with the supports of such sets in all
+// directions. Also tests that EPA of an STP-BV and a simple shape needs few steps with this proof.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -21,10 +21,10 @@ namespace {
 /// An arc along `d` through the point with the outward normal `up`; a cap if `round`, straight if endless.
 struct Piece {
   Vector3d d;
-  double radius, before, after;  // the angles to its ends (rad); of a segment the lengths (m)
+  double radius, before, after;  // angles to its ends (rad); for a segment the lengths (m)
   bool round;
 
-  /// How much further out than the point alone it is along the unit vector `m`.
+  /// How much further than the point alone it reaches along the unit vector `m`.
   double gain(const Vector3d& up, const Vector3d& m) const {
     const Vector3d across = m - m.dot(up) * up;
     const double x = round ? across.norm() : d.dot(m), z = up.dot(m);
@@ -98,7 +98,7 @@ TEST_CASE("Within the angle that a local maximum holds for, no direction leads o
     refuted += least < around.depth * (1 - 1e-9);
   }
   CHECK(held > 1000);
-  CHECK(refuted > 1000);  // and sets of which it is not true are among those tried
+  CHECK(refuted > 1000);  // for some of the sets the proof does not hold
 }
 
 TEST_CASE("A local maximum that holds beyond a plane has all of the ball's points there covered") {
@@ -112,7 +112,7 @@ TEST_CASE("A local maximum that holds beyond a plane has all of the ball's point
     const bool holds = around.local.holdsBeyond(m, distance);
     double least = around.depth;
     for (int k = 0; k < 300; ++k) {
-      // On the ball and beyond the plane: at up to the angle whose cosine is 1 - low from `m`.
+      // On the ball and beyond the plane: at angles from `m` up to the one whose cosine is 1 - low.
       const double angle = std::acos(1 - low) * (k % 3 == 0 ? 1.0 : std::sqrt(some.uniform(0, 1)));
       const Vector3d any = some.direction(), e = (any - any.dot(m) * m).normalized();
       least = std::min(least, around.support((std::cos(angle) * m + std::sin(angle) * e).normalized()));
@@ -140,9 +140,10 @@ TEST_CASE("An STP-BV and a simple shape deep in each other take few steps, and t
   struct Bound {
     const char* name;
     Shape shape;
-    double pairs;  // Newton's steps, support points and ways out of faces' balls, on average
-    /// Share of answers whose bounds differ by more than rounding. A cone's generator that rounding leans
-    /// against the normal is left out of the proof: 3 to 5 of 399, as the compiler rounds.
+    double pairs;  // average number of Newton's steps, support points and ways out of faces' balls
+    /// Share of answers whose bounds differ by more than rounding. If rounding leans a cone's generator
+    /// against the normal, the generator is left out of the proof: 3 to 5 of 399, depending on the compiler's
+    /// rounding.
     double bounded;
   };
   const std::vector<Bound> bounds{{"cylinder", Shape::cylinderOf(0.1, 0.4), 54, 0.01},
@@ -164,7 +165,7 @@ TEST_CASE("An STP-BV and a simple shape deep in each other take few steps, and t
         ++deep;
         pairs += d.patchPairs;
         bounded += d.upper - d.lower > 1e-12;
-        // No direction leads out sooner.
+        // No direction is a shorter way out.
         for (int k = 0; k < 100; ++k) {
           const double tilt = std::pow(10.0, some.uniform(-4, 0));
           const Vector3d n = (d.normal + tilt * some.direction()).normalized();

@@ -1,4 +1,4 @@
-// What single fields of FCL's requests and results do, in FCL and here.
+// Tests the effect of single fields of FCL's requests and results, in FCL and in this library.
 #include <fcl/geometry/bvh/BVH_model.h>
 #include <fcl/geometry/geometric_shape_to_BVH_model.h>
 #include <fcl/geometry/shape/box.h>
@@ -29,7 +29,7 @@ Isometry3d turned(double x) {
   return pose(Eigen::AngleAxisd(0.7, Vector3d(1, 2, 3).normalized()).toRotationMatrix(), {x, 0.1, 0.2});
 }
 
-/// Both libraries behind one face.
+/// Both libraries behind one interface.
 struct Library {
   bool ours;
   const fcl::Boxd box{0.2, 0.2, 0.2};
@@ -57,7 +57,7 @@ struct Library {
     return ours ? fcl_stpbv::collide(&a, at(0), &b, there, request, result)
                 : fcl::collide(&a, at(0), &b, there, request, result);
   }
-  /// The first one moves between the given poses past or into the second one at the origin.
+  /// Moves the first box between the given poses, past or into the second one at the origin.
   double move(const Isometry3d& from, const Isometry3d& to, const fcl::ContinuousCollisionRequestd& request,
               Motions& result) const {
     return ours ? fcl_stpbv::continuousCollide(&box, from, to, &box, at(0), at(0), request, result)
@@ -162,7 +162,7 @@ std::vector<Field> collisionFields() {
        [](const Library& l) {
          Collisions result;
          l.collide(l.box, l.box, at(0.15), fcl::CollisionRequestd(10, false), result);
-         return std::to_string(result.numContacts()) + " contact";  // FCL leaves its depth as the memory was
+         return std::to_string(result.numContacts()) + " contact";  // FCL leaves the depth uninitialised
        },
        "both"},
       {"`enable_contact` true", "two boxes 5 cm deep, side on side",
@@ -267,7 +267,8 @@ std::vector<Field> motionFields() {
   };
 }
 
-/// In a child process for FCL's sake. The text goes back as letters would: by a question about one field.
+/// Runs in a child process, because FCL may end it. The text is returned in the way letters are: by a
+/// question about one field.
 std::string answerOf(const Field& field, bool ours) {
   const Type none{};
   const auto question = [&](const Type&, const Type&, int, Random&, Findings& found) {

@@ -1,6 +1,6 @@
-// Makes docs/fcl_differences.md: every documented entry of FCL, asked of FCL and of the library.
+// Makes docs/fcl_differences.md: every documented entry of FCL, tested with FCL and with the library.
 //   fcl_parity                 prints the page
-//   fcl_parity --check PAGE    fails where the page is another one
+// fcl_parity --check PAGE    fails if the page differs
 //   fcl_parity --seed N        the same about other poses and motions; fails where the library is wrong, as
 //   all do
 #include <charconv>

@@ -1,4 +1,4 @@
-// The seven broadphase managers with FCL's callbacks and with the library's, about the same balls and boxes.
+// The seven broadphase managers with FCL's callbacks and with the library's, on the same balls and boxes.
 #include <fcl/broadphase/broadphase_SSaP.h>
 #include <fcl/broadphase/broadphase_SaP.h>
 #include <fcl/broadphase/broadphase_bruteforce.h>
@@ -31,7 +31,7 @@ struct Scene {
   std::vector<std::vector<Piece>> pieces;
 };
 
-/// Balls and boxes at random in a cube of this half side.
+/// Balls and boxes at random places in a cube with this half side.
 Scene sceneOf(int count, double half, std::uint64_t seed) {
   const std::vector<Type> all = allTypes();
   Random random(seed);
@@ -47,8 +47,8 @@ Scene sceneOf(int count, double half, std::uint64_t seed) {
   return scene;
 }
 
-/// How many pairs collide, and the least distance, of all pairs within `a`,
-/// or of each of `a` with each of `b`.
+/// The number of colliding pairs and the least distance, over all pairs within `a`, or over all pairs of one
+/// object of `a` and one of `b`.
 struct Expected {
   std::size_t contacts = 0;
   double least = std::numeric_limits<double>::max();
@@ -79,7 +79,7 @@ std::vector<std::pair<std::string, Make>> managers() {
 
 enum class With { itself, object, manager };
 
-/// Asks a manager in one of three ways.
+/// Queries a manager in one of three ways.
 template <class Ask>
 void asked(const Make& make, const Scene& scene, const Scene& others, With with, const Ask& ask) {
   const std::unique_ptr<Manager> manager = make(), other = make();
@@ -117,7 +117,7 @@ void askManager(const Make& make, With with, Findings& found) {
     ours.request.num_max_contacts = theirs.request.num_max_contacts = 100000;
     asked(make, scene, others, with, collideBy(ours, collisionCallback));
     asked(make, scene, others, with, collideBy(theirs, fcl::DefaultCollisionFunction<double>));
-    // One contact a pair, as no depth is asked for. Which pairs there are is the manager's word.
+    // One contact per pair, because no depth is requested. The manager decides which pairs there are.
     found.ours("pairs in contact", ours.result.numContacts() != theirs.result.numContacts());
     found.theirs('m', theirs.result.numContacts() < expected.contacts);
     found.theirs('t', theirs.result.numContacts() > expected.contacts);
@@ -129,7 +129,7 @@ void askManager(const Make& make, With with, Findings& found) {
     const bool overlap = expected.least <= 0;
     found.ours("the nearest pair", overlap ? d > 0 : std::abs(d - expected.least) > 1e-9);
     found.theirs('d', overlap ? e > 0 : std::abs(e - expected.least) > 1e-6);
-    // In a crowd the pair kept is to be the deepest.
+    // In a crowded scene the kept pair must be the deepest.
     double deepest = 0;
     if (overlap)
       for (std::size_t i = 0; i < scene.objects.size(); ++i)

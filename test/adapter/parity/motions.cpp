@@ -1,4 +1,4 @@
-// fcl::continuousCollide beside the library's.
+// Compares fcl::continuousCollide with the library's function.
 #include <fcl/math/motion/interp_motion.h>
 #include <fcl/narrowphase/continuous_collision.h>
 
@@ -13,11 +13,11 @@ using Eigen::Isometry3d;
 namespace {
 
 constexpr double kTolerance = 1e-4;  // of the time of contact: FCL's default
-constexpr double kClear = 1e-6;      // m: nearer than this rounding tells
-constexpr double kAdvanced = 1e-3;   // m: where FCL's advancement may stop
+constexpr double kClear = 1e-6;      // m: at smaller distances rounding decides
+constexpr double kAdvanced = 1e-3;   // m: distance at which FCL's advancement may stop
 
-/// From one pose to another, the frame's origin on a line. FCL's own for two poses leaves
-/// the point that moves straight uninitialised.
+/// From one pose to another, with the frame's origin on a line. FCL's own constructor for two poses does not
+/// initialise the point that moves straight.
 std::shared_ptr<fcl::MotionBased> motionOf(const Isometry3d& begin, const Isometry3d& end) {
   const Eigen::Matrix3d r1 = begin.linear(), r2 = end.linear();
   return std::make_shared<fcl::InterpMotion<double>>(r1, begin.translation(), r2, end.translation(),

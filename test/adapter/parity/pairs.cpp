@@ -1,4 +1,4 @@
-// fcl::distance and fcl::collide beside the library's, field by field.
+// Compares fcl::distance and fcl::collide with the library's functions, field by field.
 #include <fcl/narrowphase/collision.h>
 #include <fcl/narrowphase/distance.h>
 
@@ -16,10 +16,11 @@ using Pieces = std::vector<Piece>;
 
 namespace {
 
-constexpr double kFine = 1e-6;    // m: FCL's own default tolerance
-constexpr double kCoarse = 1e-3;  // m: points of an iteration that stops at kFine are off by its square root
-constexpr double kDepth = 1e-4;   // m: FCL's EPA stops between both
-constexpr double kOurs = 1e-9;    // m: what the library's worst bounded answers may be off by, here
+constexpr double kFine = 1e-6;  // m: FCL's own default tolerance
+constexpr double kCoarse =
+    1e-3;  // m: points of an iteration that stops at kFine are off by the square root of kFine
+constexpr double kDepth = 1e-4;  // m: FCL's EPA stops between these two
+constexpr double kOurs = 1e-9;   // m: largest error of the library's bounded answers in these tests
 
 bool nearestElement(const Type& type, const Pieces& here, const Pieces& there, std::intptr_t id, double least,
                     double within) {
@@ -34,7 +35,8 @@ bool goodPoints(const Pieces& a, const Pieces& b, const fcl::DistanceResultd& re
          distanceOf(b, q) <= within;
 }
 
-/// The least depth there is, by normals tried: the library's must separate along its normal and be no more.
+/// Compares a depth with the least depth over many normals. The library's depth must separate the bodies
+/// along its normal and must not be larger than that.
 void checkDepth(const Pieces& a, const Pieces& b, double depth, const Vector3d& n, Findings& found) {
   found.ours("moving apart by the depth does not separate", gapAlong(a, b, n) < -depth - kOurs);
   found.ours("there is a smaller depth", -widestGap(a, b) < depth - kFine);
@@ -106,7 +108,7 @@ void askCollide(const Type& ta, const Type& tb, int i, Random& random, Findings&
   const bool answers = known.status != DistanceStatus::invalid;
   if (!answers) found.unanswered();
   const Truth truth = truthOf(a, b, true);
-  const bool clear = truth.overlap || truth.distance > kFine;  // else rounding tells
+  const bool clear = truth.overlap || truth.distance > kFine;  // nearer to contact, rounding decides
   const auto inOrder = [&](const fcl::Contactd& c) {
     return c.o1 == ta.geometry.get() && c.o2 == tb.geometry.get();
   };
@@ -135,7 +137,7 @@ void askCollide(const Type& ta, const Type& tb, int i, Random& random, Findings&
   }
   if (!truth.overlap || !theirs.isCollision()) return;
   found.theirs('o', !allOf(theirs, inOrder));
-  if (!allOf(theirs, inOrder)) return;  // its other fields are those of the other order
+  if (!allOf(theirs, inOrder)) return;  // the other fields are those of the other order
   found.theirs('q', !allOf(theirs, near));
   if (shapes) {
     found.theirs('b', !allOf(theirs, [](const fcl::Contactd& c) { return c.b1 == -1 && c.b2 == -1; }));

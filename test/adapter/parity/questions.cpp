@@ -1,6 +1,8 @@
-// How fcl_parity asks. 1. A child process asks each pair of types, at each time with that time's seed. 2. It
-// writes its findings into memory shared with the parent. 3. A question that ends it or takes a second is
-// noted, and a new child goes on from there. 4. Findings become cells of Markdown tables.
+// How fcl_parity runs its questions:
+// 1. A child process asks about each pair of types, each time with another seed.
+// 2. It writes its findings into memory that it shares with the parent.
+// 3. A question that ends the process or takes a second is noted, and a new child continues after it.
+// 4. Findings become cells of Markdown tables.
 #include "test/adapter/parity/questions.h"
 
 #include <fcntl.h>
@@ -21,10 +23,10 @@ using namespace test;
 
 namespace {
 
-/// What a child and its parent both see: where the child is, and what it found about each pair of types.
+/// Memory that a child and its parent share: the child's position, and its findings about each pair of types.
 struct Shared {
   std::size_t pair = 0;
-  int next = 0;  // time that the pair is to be asked about
+  int next = 0;  // number of the time that the pair is asked about next
   Findings findings[1];
 };
 
@@ -50,10 +52,10 @@ void askPair(const Type& a, const Type& b, const Question& question, int count, 
 [[noreturn]] void askAll(const Pairs& pairs, const Question& question, int count, int seed, Shared& shared) {
   const rlimit noCore{0, 0};
   ::setrlimit(RLIMIT_CORE, &noCore);
-  const int silence = ::open("/dev/null", O_WRONLY);  // FCL's warnings and assertions
+  const int silence = ::open("/dev/null", O_WRONLY);  // hides FCL's warnings and assertions
   ::dup2(silence, STDOUT_FILENO);
   ::dup2(silence, STDERR_FILENO);
-  std::cout.rdbuf(nullptr);  // millions of lines, half of the time
+  std::cout.rdbuf(nullptr);  // they would be millions of lines, and half of the time
   std::cerr.rdbuf(nullptr);
   for (; shared.pair < pairs.size(); ++shared.pair, shared.next = 0)
     askPair(*pairs[shared.pair].first, *pairs[shared.pair].second, question, count, seed, shared.next,
@@ -93,7 +95,7 @@ std::vector<std::string> cellsOf(const Pairs& pairs, const Question& question, i
   const std::size_t size = sizeof(Shared) + pairs.size() * sizeof(Findings);
   void* memory = ::mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
   if (memory == MAP_FAILED) throw std::runtime_error("no memory shared with a child process");
-  Shared& shared = *static_cast<Shared*>(memory);  // of zeros, as new Findings are
+  Shared& shared = *static_cast<Shared*>(memory);  // zeros, which new Findings consist of
   std::fflush(nullptr);
   while (shared.pair < pairs.size()) {
     const pid_t child = ::fork();

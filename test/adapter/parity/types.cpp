@@ -1,6 +1,6 @@
-// FCL's types with their convex pieces, and the truth about two of them: the least distance over all pairs of
-// pieces, those first whose balls are nearest. Half spaces and planes have closed forms here; triangles.h
-// answers two triangles, shape_reference.h all else.
+// FCL's types with their convex pieces, and the true answer for two of them: the least distance over all
+// pairs of pieces, pairs with the nearest balls first. Half spaces and planes have closed forms here.
+// triangles.h handles two triangles, shape_reference.h everything else.
 #include "test/adapter/parity/types.h"
 
 #include <fcl/geometry/shape/capsule.h>
@@ -72,9 +72,9 @@ Type flatType(const std::string& name, std::shared_ptr<fcl::CollisionGeometryd> 
           }};
 }
 
-/// The signed distance of two pieces; `overlap` where no more than that is known.
+/// The signed distance of two pieces. `overlap` is set if only that is known.
 ReferenceAnswer distanceOf(const Piece& a, const Piece& b) {
-  if (a.unbounded && b.unbounded) return {0, a.normal, true};  // none here are parallel
+  if (a.unbounded && b.unbounded) return {0, a.normal, true};  // no two of them are parallel in this test
   if (a.unbounded || b.unbounded) {
     const Piece &flat = a.unbounded ? a : b, &other = a.unbounded ? b : a;
     const auto height = [&](const Vector3L& n) { return n.dot(other.shape.support(n)) + other.shape.margin; };
