@@ -322,8 +322,8 @@ TEST_CASE("degenerate volumes are bodies like any other") {
       const auto a = geometryOf(cloudA), b = geometryOf(cloudB);
       const DistanceAnswer d = distance(*a, at(0, 0, 0), *b, at(0, 0.02, 0.5));
       CHECK(d.status == DistanceStatus::exact);
-      CHECK(d.upper - d.lower <=
-            1e-14 + 3 * kGapRounding);  // rounded outward, for a sum of coordinates of 1 m
+      // Rounded outward, for a sum of coordinates of 1 m.
+      CHECK(d.upper - d.lower <= 1e-14 + 3 * kGapRounding);
       CHECK(d.distance < 0.4805);
       CHECK(d.distance > 0.47);
     }

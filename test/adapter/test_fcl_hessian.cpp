@@ -116,9 +116,8 @@ TEST_CASE("the Hessian through the drop-in is the change of its gradient, for sh
     }
     INFO("type " << other->getNodeType() << ": " << all.poses << " compared, " << all.boundaries
                  << " on a boundary, " << all.none << " without");
-    CHECK(
-        all.worst <
-        1e-7);  // the gradient's rounding (about 1e-15) divided by the step, and the step to the fourth power
+    // The gradient's rounding (about 1e-15) divided by the step, and the step to the fourth power.
+    CHECK(all.worst < 1e-7);
     CHECK(all.poses >= 40);
   }
 }

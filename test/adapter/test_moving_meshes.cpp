@@ -43,15 +43,15 @@ TEST_CASE("what slides over a flat mesh takes few looks, however near, and one t
         slide.angular = {0, 0, turn};
         const MotionAnswer over = firstContact(*floor, still, *body, slide);
         CHECK(over.verdict == MotionVerdict::free);
-        const long few =
-            turn > 0 ? 300 : 30;  // points on a circle leave the plane in which they start to move
+        // Points on a circle leave the plane in which they start to move.
+        const long few = turn > 0 ? 300 : 30;
         CHECK(over.queries < few);
         CHECK(firstContact(*body, slide, *floor, still).queries < few);
         slide.linear.z() = -2 * room;
         const MotionAnswer sinks = firstContact(*floor, still, *body, slide, {0, 1e-6});
         CHECK(sinks.verdict == MotionVerdict::contact);
-        CHECK(std::abs(sinks.until - 0.5) <=
-              1e-6 + 1e-15 / room);  // 2 room takes 1 unit of time, up to rounding
+        // 2 room takes 1 unit of time, up to rounding.
+        CHECK(std::abs(sinks.until - 0.5) <= 1e-6 + 1e-15 / room);
       }
 }
 

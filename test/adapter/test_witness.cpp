@@ -204,8 +204,8 @@ TEST_CASE("a witness of poses that are not finite fails quietly") {
       broken.matrix()(entry % 3, entry / 3) = bad;
       for (const PolyhedralWitness& w : {polyhedralWitness(cube, broken, sphere, Isometry3d::Identity()),
                                          polyhedralWitness(sphere, Isometry3d::Identity(), cube, broken)}) {
-        if (std::abs(bad) < HUGE_VAL)
-          continue;  // 1e308 is finite: any verdict is accepted, if the call returns
+        // 1e308 is finite: any verdict is accepted, if the call returns.
+        if (std::abs(bad) < HUGE_VAL) continue;
         CHECK(w.verdict == Verdict::failed);
         CHECK(w.supports == 0);  // values that are not finite do not reach FCL
         CHECK(w.direction == Vector3d(0, 0, 0));

@@ -151,8 +151,8 @@ double polish(const Gap& gap, Vector3d& n, double step, double finest) {
 /// The widest gap between two overlapping bodies, by brute force.
 double widestGap(const Support& a, const Support& b, double bulge) {
   constexpr int kDirections = 6000;
-  const double spacing =
-      3.6 / std::sqrt(kDirections);  // rad, more than the distance to the nearest direction
+  // Rad, more than the distance to the nearest direction.
+  const double spacing = 3.6 / std::sqrt(kDirections);
   const auto hulls = [&](const Vector3d& n) { return -a.hull(n) - b.hull(-n); };
   const auto exact = [&](const Vector3d& n) { return -a.exact(n) - b.exact(-n); };
   static const std::vector<Vector3d> directions = [] {

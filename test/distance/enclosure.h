@@ -29,8 +29,8 @@ struct Enclosure {
   double width() const { return static_cast<double>(most - least) + 2 * slack; }
 };
 
-/// Accuracy of supports of bodies of this size: 16 roundings of R and of the coordinates for each body, and as
-/// many again in their sum.
+/// Accuracy of supports of bodies of this size: 16 roundings of R and of the coordinates for each body, and
+/// as many again in their sum.
 template <class Real>
 double roundings(double size) {
   return 64 * static_cast<double>(std::numeric_limits<Real>::epsilon()) * size;

@@ -113,8 +113,8 @@ bool differences(const Body& body, const Shape& shape, const Isometry3d& base, c
     }
     const Distance e = k == 1 ? d : distance(*body.volume, base, shape, there);
     value[k] = e.distance;
-    if (shape.unbounded() &&
-        e.normal.dot(d.normal) < 0.0) {  // a plane that is as deep on its other side: a kink
+    // A plane that is as deep on its other side: a kink.
+    if (shape.unbounded() && e.normal.dot(d.normal) < 0.0) {
       parts = {};
       return false;
     }

@@ -82,6 +82,6 @@ TEST_CASE(
   CHECK(worstDistance < 1e-13);
   CHECK(worstNormal < 1e-10);
   CHECK(worstPoint <
-        1e-13 *
-            std::max(1.0, R));  // the rounding of a unit vector moves a big sphere's point by R times that
+        // The rounding of a unit vector moves a big sphere's point by R times that.
+        1e-13 * std::max(1.0, R));
 }

@@ -56,8 +56,8 @@ Outcome check(const std::vector<Covered>& first, const std::vector<Covered>& sec
     if (d.status != DistanceStatus::exact && d.status != DistanceStatus::bounded) continue;
     ++(d.status == DistanceStatus::exact ? outcome.exact : outcome.bounded);
     outcome.widest = std::max(outcome.widest, d.upper - d.lower);
-    if (d.status == DistanceStatus::exact && i % 20 != 0)
-      continue;  // the other exact answers are tested elsewhere
+    // The other exact answers are tested elsewhere.
+    if (d.status == DistanceStatus::exact && i % 20 != 0) continue;
     CAPTURE(i, a.cloud.size(), a.radii.R, b.cloud.size(), b.radii.R);
     const ReferenceBody x = referenceBody(a.cloud, a.radii.r, a.radii.R),
                         y = referenceBody(b.cloud, b.radii.r, b.radii.R, at);

@@ -53,8 +53,8 @@ TEST_CASE("The gradient with respect to both bodies' twists is what central diff
                                      StpBv::build(randomHull(60, {0.2, 0.3, 0.1}, 4), {0.01, R}),
                                      StpBv::build({Vector3d(0, 0, -0.2), Vector3d(0.1, 0, 0.2)}, {0.01, R})};
   Random random(5);
-  constexpr double kStep =
-      1e-8;  // across a boundary the gradient is only Lipschitz, so the error is about step / core
+  // Across a boundary the gradient is only Lipschitz, so the error is about step / core.
+  constexpr double kStep = 1e-8;
   double worst = 0;
   for (int i = 0; i < 200; ++i) {
     const StpBv& a = *pool[static_cast<std::size_t>(random.below(4))];

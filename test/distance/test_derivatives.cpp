@@ -253,8 +253,8 @@ TEST_CASE(
         DistanceRate moves;
         REQUIRE(hessian(a, here, b, there, d, h));
         REQUIRE(rate(a, here, b, there, d, twists, moves));
-        const double rounding = 4 * kEpsilon * (0.25 + radius) /
-                                apart;  // rounding of the distance, relative to the remaining distance
+        // Rounding of the distance, relative to the remaining distance.
+        const double rounding = 4 * kEpsilon * (0.25 + radius) / apart;
         CHECK((moves.normal - turn).norm() <= rounding * turn.norm());
         CHECK((h.normal * twists - turn).norm() <= rounding * turn.norm());
         CHECK(std::abs(twists.dot(h.matrix * twists) - turn.dot(v)) <= rounding * turn.dot(v));

@@ -1,6 +1,6 @@
-// Polytopes of many vertices beside simple shapes and each other: the search asks few of them, the answer
-// must be that of all. Flat faces of more vertices than it takes for few, and faces parallel to the other
-// body's.
+// Polytopes with many vertices, with simple shapes and with each other. The search examines few of the
+// vertices, but the answer must be that of all. Also flat faces with more vertices than the search takes for
+// few, and faces parallel to the other body's.
 #include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -48,7 +48,8 @@ TEST_CASE("polytopes of many vertices are as far from any shape as all of their 
       for (int i = 0; i < trials(30); ++i) {
         CAPTURE(first.name, second.name, i);
         const Isometry3d a = pose(random.rotation(), random.direction());
-        Isometry3d b = a;  // a third with parallel axes, one of them turned by hardly anything
+        // In a third of the cases the axes are parallel, in a third one is turned by almost nothing.
+        Isometry3d b = a;
         if (i % 3 != 0) b.linear() = a.linear() * (i % 3 == 1 ? random.rotation() : random.rotation(1e-9));
         b.translation() += (i % 3 == 1 ? random.direction() : a.linear().col(i % 2)) *
                            random.uniform(i % 2 ? 0.05 : 0.4, i % 2 ? 0.4 : 3);
@@ -66,7 +67,7 @@ TEST_CASE("polytopes of many vertices are as far from any shape as all of their 
         }
         CHECK(d.lower <= static_cast<double>(truth.distance));
         CHECK(d.upper >= static_cast<double>(truth.distance));
-        // Faces turned by 1e-9 rad from each other: which of their corners are nearest is up to rounding.
+        // Faces turned by 1e-9 rad from each other: rounding decides which of their corners are nearest.
         const double turned = i % 3 == 2 ? 1e-9 : 0.0;
         if (turned == 0.0) CHECK(d.status == DistanceStatus::exact);
         CHECK(std::abs(d.distance - static_cast<double>(truth.distance)) <=
@@ -98,14 +99,15 @@ TEST_CASE("a box's normals are those of the polytope of its corners") {
   Random random(21);
   std::array<int, 3> seen{0, 0, 0};
   for (int i = 0; i < 3000; ++i) {
-    Vector3d sides;  // some of them plates and needles
+    Vector3d sides;  // some of them are plates and needles
     for (double& side : sides) side = std::pow(10.0, random.uniform(-4, 0));
     if (i % 10 == 0) sides[i / 10 % 3] = 0.0;
     std::array<Vector3d, 8> corner;
     for (std::size_t k = 0; k < 8; ++k)
       corner[k] = 0.5 * sides.cwiseProduct(Vector3d(k & 1 ? 1 : -1, k & 2 ? 1 : -1, k & 4 ? 1 : -1));
     const Shape box = Shape::boxOf(sides), polytope = Shape::polytopeOf(corner.data(), 8);
-    // Across a face, an edge, or neither, but for a turn; sides that are level to 1e-9 m are one face's.
+    // Perpendicular to a face or an edge, or neither, except for a small turn. Sides that are level to 1e-9 m
+    // belong to one face.
     Vector3d m = random.direction();
     const int across = i % 3;
     for (int k = 0; k < across; ++k) m[(k + i / 3) % 3] = i % 2 ? 0.0 : 1e-6 * m[(k + i / 3) % 3];
@@ -113,7 +115,7 @@ TEST_CASE("a box's normals are those of the polytope of its corners") {
     constexpr double kLevel = 1e-9;
     int steepest;
     m.cwiseAbs().maxCoeff(&steepest);
-    if (sides[steepest] * std::abs(m[steepest]) <= 4 * kLevel) continue;  // its ends are level, too
+    if (sides[steepest] * std::abs(m[steepest]) <= 4 * kLevel) continue;  // its ends are level too
     if ((sides.cwiseProduct(m.cwiseAbs()).array() - kLevel).abs().minCoeff() < 0.6 * kLevel) continue;
     detail::NormalCone a, b;
     const Vector3d y = polytope.support(m);
@@ -123,7 +125,7 @@ TEST_CASE("a box's normals are those of the polytope of its corners") {
     if (!known) continue;
     REQUIRE(a.count == b.count);
     ++seen[static_cast<std::size_t>(a.count)];
-    CHECK((a.normal - b.normal).norm() < 1e-12);  // of corners' differences, divided by 1e-4 m
+    CHECK((a.normal - b.normal).norm() < 1e-12);  // for differences of corners, divided by 1e-4 m
     if (a.count == 1) CHECK(a.way[0].cross(b.way[0]).norm() < 1e-12);
     for (int k = 0; k < a.count; ++k)
       CHECK(std::abs(a.way[static_cast<std::size_t>(k)].dot(a.normal)) < 1e-12);

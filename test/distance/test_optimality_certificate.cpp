@@ -1,5 +1,6 @@
-// A ball and the corners of a feature around the origin: where the proof holds, no direction leads out of
-// their hull sooner than over the feature. The axes of two boxes, and the answers that they prove.
+// A ball and the corners of a feature around the origin: where the proof holds, no direction is a shorter way
+// out of their hull than the one over the feature. Also the axes of two boxes, and the answers that they
+// prove.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -20,7 +21,7 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// A maximum at `-depth n`, three or four corners around it and a ball below.
+/// A maximum at `-depth n`, with three or four corners around it and a ball below.
 struct Hull {
   Vector3d n, centre;
   double depth, radius;
@@ -30,7 +31,8 @@ struct Hull {
     Hull h;
     h.n = some.direction();
     h.depth = std::pow(10.0, some.uniform(-3, -0.5));
-    // Each number by itself: which of an expression's is drawn first is the compiler's choice.
+    // Numbers are drawn in separate statements, because compilers evaluate an expression's parts in different
+    // orders.
     const double radius = some.uniform(0.5, 2.0), decade = some.uniform(0, 1);
     h.radius = radius * h.depth * std::pow(10.0, decade);
     const double size = h.depth * std::pow(10.0, some.uniform(-2, 0.5)),
@@ -50,14 +52,14 @@ struct Hull {
 
   bool closes() const { return closesOverBall(pack(centre), radius, corners, pack(n), depth); }
 
-  /// How far the hull, with the maximum's point, reaches along `m`.
+  /// Support of the hull and the maximum's point along `m`.
   double support(const Vector3d& m) const {
     double most = std::max(m.dot(centre) + radius, -depth * n.dot(m));
     for (std::size_t i = 0; i < corners.count; ++i) most = std::max(most, m.dot(unpack(corners.point[i])));
     return most;
   }
 
-  /// The nearest of the planes from the maximum's point over each side of the feature.
+  /// Least distance of the planes through the maximum's point and each side of the feature.
   double side() const {
     double least = depth;
     for (std::size_t i = 0; i < corners.count; ++i) {
@@ -68,7 +70,7 @@ struct Hull {
   }
 };
 
-/// The least support found by trying directions about the best so far, ever closer.
+/// The least support found by trying directions closer and closer around the best so far.
 double leastSupport(const Hull& h, Random& some) {
   double least = std::numeric_limits<double>::infinity();
   for (int start = 0; start < 12; ++start) {
@@ -106,7 +108,7 @@ TEST_CASE("A ball and the corners of a feature prove a depth") {
     }
   }
   CHECK(proven > trials(300));
-  CHECK(refuted > trials(300));  // and hulls of which it is not true are among those tried
+  CHECK(refuted > trials(300));  // for some of the hulls the proof does not hold
 }
 
 TEST_CASE("The inner ball is inside the vertices' hull, and as large as the centre allows") {
@@ -187,8 +189,8 @@ TEST_CASE("Two boxes overlap least along one of fifteen axes") {
 }
 
 TEST_CASE("What an answer for two boxes proves holds for the maximum on the other side") {
-  // Long thin boxes bulge by millimetres: the nearer side of the vertices'
-  // difference need not be the way out.
+  // Long thin boxes bulge by millimetres, so the nearer side of the vertices' difference need not be the way
+  // out.
   Random some(9);
   const StpBv::Ptr a = StpBv::build(box(0.3, 0.2, 0.1), {0.005, 100.0}),
                    b = StpBv::build(needle(0.5, 0.01), {0.005, 10.0});
@@ -217,7 +219,7 @@ TEST_CASE("A depth that the certificate proves is known to rounding") {
     const Distance d = distance(*a, still, *b, at);
     if (d.status != DistanceStatus::local) continue;
     ++overlaps;
-    tight += d.upper - d.lower < 1e-12;  // a hundred roundings of a metre, and of R across
+    tight += d.upper - d.lower < 1e-12;  // a hundred roundings of a metre, and of R across the normal
     CHECK(d.upper - d.lower < 1e-3 * -d.distance);
   }
   CHECK(overlaps > 500);
@@ -225,7 +227,7 @@ TEST_CASE("A depth that the certificate proves is known to rounding") {
 }
 
 TEST_CASE("Thin rods that cross are as deep as they are, whatever R: the bounds meet") {
-  // Four vertices of the difference that the search begins with are often in one plane.
+  // The four vertices of the difference with which the search begins are often in one plane.
   Random random(71);
   for (const double thickness : {1e-6, 1e-4, 1e-3, 1e-2})
     for (const double R : {1.0, 10.0, 1e4})
@@ -246,15 +248,15 @@ TEST_CASE("Thin rods that cross are as deep as they are, whatever R: the bounds 
           return n.dot(at.translation()) - b->support(-back) - a->support(n);
         };
         REQUIRE(std::abs(gap(d.normal) - d.distance) <= 1e-13 * (1 + R));
-        // Were a bound not to hold, other normals would say so: across both rods, and at random.
+        // If a bound did not hold, other normals would show it: perpendicular to both rods, and random ones.
         const Vector3d across = Vector3d::UnitX().cross(at.linear().col(0)).normalized();
         for (int k = 0; k < 300; ++k) {
           const Vector3d n = (across + random.uniform(0, 0.3) * random.direction()).normalized();
           REQUIRE(std::max(gap(n), gap(-n)) <= d.upper + 1e-13 * (1 + R));
           REQUIRE(gap(random.direction()) <= d.upper + 1e-13 * (1 + R));
         }
-        // Near the smallest R bodies are balls, almost as deep along all normals: the search has not the room
-        // for that. Elsewhere 16 ulps of rho, twice.
+        // Near the smallest R bodies are balls, almost equally deep along all normals, and the search runs
+        // out of points. Elsewhere the bounds are 16 ulps of rho apart, for both bodies.
         if (R > 3) REQUIRE(d.upper - d.lower <= 1e-13 + 8e-15 * R);
       }
 }
@@ -267,8 +269,8 @@ TEST_CASE("Bodies next to their smallest R are almost balls, and as deep as they
   int deep = 0, met = 0;
   for (const double more : {1e-9, 1e-6, 1e-4, 1e-3, 1e-2, 0.1}) {
     std::vector<StpBv::Ptr> volumes;
-    // Where many corners share a face's ball but for rounding, the support function is off by that times
-    // this.
+    // If many corners share a face's ball up to rounding, the support function is off by rounding times this
+    // factor.
     const double support = 1e-16 * (1 + more) / std::sqrt(more * (2 + more));
     for (const Cloud& cloud : clouds)
       volumes.push_back(StpBv::build(cloud, {0.01, (1 + more) * StpBv::smallestR(cloud, 0.01)}));
@@ -282,8 +284,8 @@ TEST_CASE("Bodies next to their smallest R are almost balls, and as deep as they
       ++deep;
       met += d.upper - d.lower <= 1e-13 + support;
       CAPTURE(more, i, d.distance, d.lower, d.upper);
-      // Where whole rings of normals are equally good, the polytope runs out of points: up to 3e-4 of the
-      // depth in 14,000 of such pairs, less in these.
+      // If whole rings of normals are equally good, the polytope runs out of points: up to 3e-4 of the depth
+      // in 14,000 of such pairs, less in these.
       REQUIRE(d.upper - d.lower <= 2e-4 * -d.distance);
       const auto gap = [&](const Vector3d& n) {
         return n.dot(at.translation()) - b.support(-(at.linear().transpose() * n)) - a.support(n);
@@ -296,5 +298,5 @@ TEST_CASE("Bodies next to their smallest R are almost balls, and as deep as they
     }
   }
   CHECK(deep > 800);
-  CHECK(met >= 0.97 * deep);  // EPA's own triangles: half of them
+  CHECK(met >= 0.97 * deep);  // EPA's own triangles meet it in half of them
 }

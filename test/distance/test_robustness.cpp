@@ -1,4 +1,4 @@
-// What a caller may throw at a query without being let down.
+// Extreme input that a query must handle.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
@@ -59,7 +59,8 @@ TEST_CASE("A remembered start never changes the answer") {
   Matrix3d rotation = Matrix3d::Identity();
   for (int i = 0; i < 500; ++i) {
     rotation = random.rotation(i % 10 == 0 ? 1.0 : 0.01) * rotation;
-    centre = (centre + 0.01 * random.direction()).normalized() * random.uniform(0.2, 0.8);  // deep at times
+    // Deep in some cases.
+    centre = (centre + 0.01 * random.direction()).normalized() * random.uniform(0.2, 0.8);
     const Isometry3d pb = pose(rotation, centre);
     const Distance warm = distance(*a, kOrigin, *b, pb, &cache), cold = distance(*a, kOrigin, *b, pb);
     CHECK(warm.status == cold.status);
@@ -146,7 +147,7 @@ TEST_CASE("Far from the world's origin the answer is that of the same pair at th
   const StpBv::Ptr a = StpBv::build(box(0.3, 0.2, 0.5), {0.01, R}),
                    b = StpBv::build(cylinder(0.1, 0.3), {0.0, R});
   for (int i = 0; i < 50; ++i) {
-    // Translations that both places can represent.
+    // Translations that are exact at both places.
     const Vector3d offset = (away * random.direction()).array().round();
     const Vector3d apart = (0x1p20 * 0.6 * random.direction()).array().round() * 0x1p-20;
     const Matrix3d qa = random.rotation(), qb = random.rotation();
@@ -176,8 +177,8 @@ TEST_CASE("Big radii from just above the smallest to a million metres are solved
     const double smallest = StpBv::smallestR(cloud, 0.01);
     for (const double R : {smallest * (1 + 1e-9), smallest * (1 + 1e-6), smallest * 1.001, 1e3, 1e6}) {
       const StpBv::Ptr a = StpBv::build(cloud, {0.01, R}), b = StpBv::build(box(0.1, 0.2, 0.1), {0.0, R});
-      // Where many corners share a face's ball but for rounding, the support function is off by that times
-      // this.
+      // If many corners share a face's ball up to rounding, the support function is off by rounding times
+      // this factor.
       const double rho = R - 0.01, ball = smallest - 0.01;
       const double support = 1e-16 * rho / std::sqrt((rho - ball) * (rho + ball));
       for (int i = 0; i < trials(40); ++i) {
@@ -224,11 +225,12 @@ TEST_CASE("Bodies deep in each other get a finite local answer that separates th
         const Distance d = distance(*a, pa, *b, pb);
         REQUIRE(finiteAnswer(d));
         REQUIRE(d.status == DistanceStatus::local);
-        const double rounded = 2 * kGapRounding * 2;  // outward, for bodies and distances of 2 m in all
+        const double rounded = 2 * kGapRounding * 2;  // outward, for a sum of sizes and distances of 2 m
         CHECK(d.upper <= -0.01 + 1e-15 + rounded);
         CHECK(d.lower <= d.upper);
         CHECK((d.lower <= d.distance && d.distance - d.lower <= rounded));
-        // A true lower bound, a local maximum, and nearly always as good as the best of many directions.
+        // The answer is a true lower bound, a local maximum, and nearly always as good as the best of many
+        // directions.
         const ReferenceBody ra = referenceBody(ca, 0.01, R, pa), rb = referenceBody(cb, 0.0, R, pb);
         const Vector3L n = d.normal.cast<long double>();
         CHECK(std::abs(static_cast<double>(referenceGap(ra, rb, n) - d.distance)) < 1e-13);
@@ -236,11 +238,11 @@ TEST_CASE("Bodies deep in each other get a finite local answer that separates th
           const Vector3L nearby = (n + 1e-4L * random.direction().cast<long double>()).normalized();
           CHECK(static_cast<double>(referenceGap(ra, rb, nearby)) <= d.distance + 1e-13);
         }
-        // No direction at all does better than the upper bound.
+        // No direction has a wider gap than the upper bound.
         CHECK(static_cast<double>(widestGapOverDirections(ra, rb, 1000)) <= d.upper + 1e-12);
         ++all;
         best += static_cast<double>(widestGapOverDirections(ra, rb, 1000)) <= d.distance + 1e-12;
-        // The translation found takes the bodies apart.
+        // The translation of the answer separates the bodies.
         pb.translation() += (1e-6 - d.distance) * d.normal;
         CHECK(distance(*a, pa, *b, pb).distance >= 1e-6 - 1e-13);
       }
@@ -287,7 +289,7 @@ TEST_CASE("The band of an edge 2 mm long at R = 1e6 m, 2e-9 rad wide, is found f
     const double length = (b->vertices()[static_cast<std::size_t>(edge.vertex[0])] -
                            b->vertices()[static_cast<std::size_t>(edge.vertex[1])])
                               .norm();
-    // A normal of this edge's, and the point that it leads to.
+    // A normal of this edge, and the point where it is the surface's normal.
     const double mix = random.uniform(0.01, 0.99);
     Vector3d n =
         mix * b->corner(edge.face[0], edge.vertex[0]) + (1 - mix) * b->corner(edge.face[1], edge.vertex[0]);
@@ -302,6 +304,6 @@ TEST_CASE("The band of an edge 2 mm long at R = 1e6 m, 2e-9 rad wide, is found f
     cache.patch = {0, b->owner(-cache.normal)};
     const Distance d = distance(*a, pa, *b, kOrigin, &cache);
     CHECK(d.status == DistanceStatus::exact);
-    CHECK(std::abs(d.distance - apart) < 1e-14);  // coordinates of 1 m, a dozen operations
+    CHECK(std::abs(d.distance - apart) < 1e-14);  // a dozen operations with coordinates of 1 m
   }
 }

@@ -1,5 +1,5 @@
-// Two capsules: closed form, against the nearest points of two segments in long double, found from ends and
-// lines by other formulas.
+// Two capsules: closed form, compared with the nearest points of two segments in long double, which are
+// computed from ends and lines by other formulas.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -32,20 +32,22 @@ SegmentL segment(const Shape& capsule, const Isometry3d& pose) {
   return {middle - axis, middle + axis};
 }
 
-// Of an end of one and the other, or of two inner points where both lines come nearest.
+// The least distance is that of an end of one segment from the other, or that of two inner points where both
+// lines are nearest.
 long double leastDistance(const SegmentL& a, const SegmentL& b) {
   long double least = std::min({a.distance(b.from), a.distance(b.to), b.distance(a.from), b.distance(a.to)});
   const Vector3L u = a.to - a.from, v = b.to - b.from, n = u.cross(v), d = b.from - a.from;
   const long double squared = n.squaredNorm();
   if (!(squared > 0)) return least;
   const long double s = d.cross(v).dot(n) / squared, t = d.cross(u).dot(n) / squared;
-  // Of lines next to parallel s and t are good to less than the way across them: one is projected again.
+  // For lines that are nearly parallel, s and t are less accurate than the distance of the lines, so one
+  // point is projected again.
   if (s > 0 && s < 1 && t > 0 && t < 1) least = std::min(least, a.distance(b.at(t)));
   return least;
 }
 
-// Where one capsule is in the other one's frame: across it, level with it or nearly so, behind its end, in
-// one line with it; near or far.
+// The pose of one capsule in the other one's frame: across it, level with it or nearly so, behind its end, or
+// in one line with it; near or far.
 Isometry3d placeBeside(const Shape& a, const Shape& b, Random& random) {
   const double tilt = random.below(3) ? std::pow(10.0, random.uniform(-17, 0)) : 0.0;
   const Eigen::Matrix3d level =
@@ -81,14 +83,14 @@ TEST_CASE("Two capsules are exact wherever they are and however they are turned"
     const SegmentL inner[2]{segment(a, first), segment(b, second)};
     const double margins = a.margin + b.margin;
     const double truth = static_cast<double>(leastDistance(inner[0], inner[1])) - margins;
-    // Poses and points of some 5 m, a dozen operations.
+    // A dozen operations with poses and points of about 5 m.
     const double rounding = 16 * 2.2e-16 * 5;
-    if (truth + margins < 4 * rounding) continue;  // cores that meet are no matter of this formula
+    if (truth + margins < 4 * rounding) continue;  // cores that meet are not handled by this formula
     const Distance found = distance(a, first, b, second);
     REQUIRE(found.lower <= truth);
     REQUIRE(truth <= found.upper);
-    // Of cores that all but touch the normal is known to rounding of the size beside the gap only: a few
-    // answers are `bounded` there, and "not farther" is said a little early.
+    // If cores almost touch, the error of the normal is rounding of the size divided by the gap. A few
+    // answers are `bounded` there, and "not farther" is reported slightly early.
     const bool touching = truth + margins < 1e-7;
     if (touching && found.status == DistanceStatus::bounded) continue;
     REQUIRE(found.status == DistanceStatus::exact);

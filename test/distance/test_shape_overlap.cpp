@@ -1,5 +1,5 @@
 // A simple shape deep in an STP-BV or in another shape, and ellipsoids as thin as discs: bounds and witness
-// points against supports in long double.
+// points, compared with supports in long double.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -35,7 +35,7 @@ std::vector<OverlapBody> overlapBodies(double largest) {
   return all;
 }
 
-/// The top of the hill of gaps that `n` is on, by a shrinking compass.
+/// The local maximum of the gap that `n` leads to, by a shrinking compass.
 template <typename Gap>
 double hilltop(const Gap& gap, const Vector3d& from) {
   Vector3L n = from.cast<long double>().normalized();
@@ -44,7 +44,7 @@ double hilltop(const Gap& gap, const Vector3d& from) {
     const Vector3L e = n.unitOrthogonal(), f = n.cross(e);
     bool grew = false;
     for (int k = 0; k < 8; ++k) {
-      const long double angle = 0.785398163397448L * k + 7 * step;  // turned a little each round
+      const long double angle = 0.785398163397448L * k + 7 * step;  // turned a little in each round
       const Vector3L m = (n + step * (std::cos(angle) * e + std::sin(angle) * f)).normalized();
       const long double g = gap(m);
       if (g > best) best = g, n = m, grew = true;
@@ -54,7 +54,7 @@ double hilltop(const Gap& gap, const Vector3d& from) {
   return static_cast<double>(best);
 }
 
-/// A quarter aligned, a quarter nearly so; within 0.2 m of each other's centre.
+/// A pose of which a quarter is aligned and a quarter nearly so, within 0.2 m of each other's centre.
 Isometry3d inside(Random& random) {
   Eigen::Matrix3d turn = random.rotation();
   const int kind = random.below(4);
@@ -90,7 +90,7 @@ TEST_CASE("two shapes deep in each other: no gap on the answer's hill is above t
 }
 
 TEST_CASE("an STP-BV and a shape deep in it: no gap on the answer's hill is above the upper bound") {
-  // The reference's long double is good to 1e-13 m at R = 1e6 m: less than the bound allows there.
+  // The reference's long double is accurate to 1e-13 m at R = 1e6 m, which is better than the bound there.
   const std::vector<OverlapBody> bodies = overlapBodies(1e6);
   Random random(6);
   int deep = 0;
@@ -130,10 +130,10 @@ TEST_CASE("deep in an STP-BV both witness points are on their bodies and opposit
     if (!(d.distance < -(body.volume->radii().r + b.shape.margin))) continue;
     ++deep;
     CAPTURE(i, b.name, body.volume->radii().R, d.distance);
-    // Coordinates of some 3 m; an ulp of the normal moves the volume's point by R.
+    // For coordinates of about 3 m. An ulp of the normal moves the volume's point by R ulps.
     const double rounding = 1e-14 * (3 + body.volume->radii().R);
     REQUIRE((d.point[1] - d.point[0] - d.distance * d.normal).norm() < rounding);
-    // The shape's point is the end of the margin from a point of its core that lies in the supporting plane.
+    // The shape's point is `margin` away from a point of its core that lies in the core's supporting plane.
     Shape core = b.shape;
     core.margin = 0;
     const Vector3d y = d.point[1] + b.shape.margin * d.normal;
@@ -222,7 +222,7 @@ TEST_CASE(
 }
 
 TEST_CASE("bodies of revolution on nearly parallel axes: both witness points are on their bodies") {
-  // The supporting faces are generators and discs: of their many points EPA sees a few.
+  // The supporting faces are generators and discs. EPA examines only a few of their points.
   const std::vector<std::string> names{"cylinder", "cone", "capsule", "ellipsoid"};
   Random random(11);
   int overlaps = 0, off = 0;
@@ -317,8 +317,8 @@ TEST_CASE(
       CAPTURE(thickness, i, R, d.distance, axes.transpose());
       REQUIRE(d.status == DistanceStatus::exact);
       REQUIRE(std::abs(d.distance - static_cast<double>(truth.distance)) < 1e-14);
-      // Opposite each other, and so the gradient is that of the distance: its moments are those of the
-      // points.
+      // The points are opposite each other, so the gradient is that of the distance: its moments are those of
+      // the points.
       const double rounding = 1e-14 * (3 + R);
       REQUIRE((d.point[1] - d.point[0] - d.distance * d.normal).norm() < rounding);
       const Vector3d p = at.linear().transpose() * (d.point[1] - at.translation());
@@ -326,14 +326,15 @@ TEST_CASE(
       double level = 0;
       for (int k = 0; k < 3; ++k)
         if (axes[k] > 1e-3) level += p[k] / axes[k] * (p[k] / axes[k]);
-      REQUIRE(level < 1 + 1e-11);  // the points are good to 1e-15 m, the axes taken at least 1e-3 m
+      // The points are accurate to 1e-15 m, and the axes count as at least 1e-3 m.
+      REQUIRE(level < 1 + 1e-11);
     }
     REQUIRE(apart > 100);
   }
 }
 
 TEST_CASE("a small shape deep in a large STP-BV takes a few steps, not a polytope") {
-  // EPA takes some sixty; a corner that is the last to leave is seen with the first or second normal.
+  // EPA takes about sixty steps; the first or second normal finds a corner that is the last to leave.
   const StpBv::Ptr body = StpBv::build(randomHull(60, {0.4, 0.4, 0.4}, 4), {0.01, 10});
   const Shape triangle = Shape::triangleOf({0, 0, 0}, {0.01, 0, 0}, {0.003, 0.01, 0});
   Random random(9);

@@ -1,5 +1,5 @@
 // The feature walk of an STP-BV and a simple shape: which feature is nearest to a point, and how many pairs
-// of features a query takes.
+// of features a query needs.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <string>
@@ -39,7 +39,7 @@ std::vector<Named> usual() {
           {"ellipsoid", Shape::ellipsoidOf({0.1, 0.2, 0.15})}};
 }
 
-/// Without extent along some axis, or all of them.
+/// Shapes without extent along some axis, or along all of them.
 std::vector<Named> flat() {
   static const std::vector<Vector3d> one{{0.1, 0, 0}}, same(5, {0.1, 0, 0}),
       line{{0, 0, 0}, {0.1, 0, 0}, {0.2, 0, 0}, {0.1, 0, 0}, {0.3, 0, 0}},
@@ -78,7 +78,7 @@ TEST_CASE("the nearest feature's point is in the core, and no point of the core 
   for (const auto& [name, shape] : all()) {
     int outside = 0, inside = 0;
     for (int i = 0; i < 3000; ++i) {
-      // Some of the points level with a face, an edge, an end or the axis.
+      // Some of the points are level with a face, an edge, an end or the axis.
       Vector3d x = random.uniform(0, 0.4) * random.direction();
       for (int axis = 0; axis < 3; ++axis)
         if (random.uniform(0, 1) < 0.2)
@@ -86,7 +86,7 @@ TEST_CASE("the nearest feature's point is in the core, and no point of the core 
       const ShapeFeature f = nearestFeature(shape, pack(x));
       CAPTURE(name, x.transpose(), static_cast<int>(f.kind), f.which);
       if (f.kind == ShapeFeature::Kind::inside) {
-        // No plane parts it from the core.
+        // No plane separates the point from the core.
         for (int k = 0; k < 50; ++k) {
           const Vector3d m = random.direction();
           REQUIRE(m.dot(x) <= m.dot(shape.support(m)) + 1e-15);
@@ -96,7 +96,7 @@ TEST_CASE("the nearest feature's point is in the core, and no point of the core 
       }
       if (f.kind == ShapeFeature::Kind::none || f.kind == ShapeFeature::Kind::whole) continue;
       const Vector3d away = unpack(wayFrom(f, pack(x))), y = x - away;
-      // A narrow triangle's face is across its sides to rounding over its width.
+      // The normal of a narrow triangle's face has an error of rounding divided by the width.
       const double rounding = name == "narrow triangle" ? 1e-7 : 2e-15;
       for (int k = 0; k < 50; ++k) {
         const Vector3d m = random.direction();
@@ -117,7 +117,7 @@ TEST_CASE("a query of an STP-BV and a shape apart takes few pairs of features, f
     std::string name;
     double cold, warm;
   };
-  // Measured when it was written, and a tenth more.
+  // Measured when this was written, plus a tenth.
   const Bound bounds[] = {{"hull of 162", 3.53, 2.04}, {"hull of 8", 3.24, 1.69}, {"ball", 1.86, 1.24},
                           {"capsule", 2.00, 1.48},     {"box", 2.50, 1.94},       {"triangle", 2.13, 1.39},
                           {"cylinder", 2.11, 1.57},    {"cone", 1.96, 1.46},      {"ellipsoid", 2.28, 1.26}};
@@ -206,7 +206,7 @@ TEST_CASE("thresholds of an STP-BV and a shape of any extent are judged as their
         REQUIRE(d.status != DistanceStatus::invalid);
         CAPTURE(name, d.lower, d.upper);
         ++(d.lower > 0 ? apart : overlap);
-        // Depths are good to 1e-6 of them.
+        // Depths are accurate to 1e-6 of their value.
         const double slack = 1e-13 + (d.lower < 0 ? 1e-6 * -d.lower : 0);
         PairCache cache;
         for (int k = 0; k < 2; ++k) {  // without and with a last normal

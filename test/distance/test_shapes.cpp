@@ -1,5 +1,5 @@
-// An STP-BV against each simple shape: derivatives, continuity, planes, penetration, robustness. The parity
-// with the reference on random poses is shape_soak.
+// An STP-BV against each simple shape: derivatives, continuity, planes, penetration, robustness. shape_soak
+// compares random poses with the reference.
 #include <algorithm>
 #include <array>
 #include <catch2/catch.hpp>
@@ -26,8 +26,7 @@ std::vector<std::string> allShapes() {
 }  // namespace
 
 TEST_CASE("along fine paths the normal never turns faster than theory allows, for every pair of shapes") {
-  // docs/theory.md, 6: a translation eps turns n by at most eps / (delta + r1
-  // + r2), and a flat body has r = 0.
+  // docs/theory.md, 6: a translation eps turns n by at most eps / (delta + r1 + r2). A flat body has r = 0.
   const std::vector<StpBv::Ptr> volumes{
       StpBv::build(box(0.3, 0.2, 0.1), {0.01, 10}), StpBv::build(geodesicSphere(0.2, 1), {0.01, 1}),
       StpBv::build(plate(0.3, 0.2), {0.005, 10}), StpBv::build(cylinder(0.1, 0.4, 16), {0.02, 100}),
@@ -39,7 +38,8 @@ TEST_CASE("along fine paths the normal never turns faster than theory allows, fo
       const StpBv& volume = *volumes[static_cast<std::size_t>(path % 5)];
       const TestShape shape = randomShape(name, random);
       const double margins = volume.radii().r + shape.shape.margin;
-      // A third along a face of the volume, turned by hardly anything; down to within the margins.
+      // In a third of the cases along a face of the volume, turned by almost nothing. The distance goes down
+      // to within the margins.
       const Eigen::Matrix3d turn =
           path % 3 == 0 ? Eigen::Matrix3d(random.rotation(random.below(2) ? 0 : 1e-6)) : random.rotation();
       Vector3d way = random.direction();
@@ -55,7 +55,7 @@ TEST_CASE("along fine paths the normal never turns faster than theory allows, fo
       }
       REQUIRE(last.status == DistanceStatus::exact);
       way = (way - way.dot(last.normal) * last.normal)
-                .normalized();  // along the surfaces, over their boundaries
+                .normalized();  // along the surfaces, across their boundaries
       for (const double step : {1e-3, 1e-5, 1e-7, 1e-9, 1e-11}) {
         CAPTURE(step);
         const Vector3d start = at.translation();
@@ -64,10 +64,11 @@ TEST_CASE("along fine paths the normal never turns faster than theory allows, fo
         for (int i = 1; i <= 150; ++i) {
           at.translation() = start + i * step * way;
           const Distance d = ask();
-          if (d.status == DistanceStatus::local) break;  // slid in too deep
+          if (d.status == DistanceStatus::local) break;  // moved too deep
           REQUIRE(d.status == DistanceStatus::exact);
-          // Between two poses the cores may be a little nearer than at either (no distance curves more than a
-          // point's); a normal is good to what an ulp of it moves the core's point, over what curves the gap.
+          // Between two poses the cores may be slightly nearer than at either, because no distance curves
+          // more than a point's. The error of a normal is what an ulp of it moves the core's point by,
+          // divided by what curves the gap.
           const double ends = std::min(d.distance, last.distance) + margins;
           const double nearer = ends - step * step / (6 * ends);
           if (!(nearer > step)) break;
@@ -125,7 +126,7 @@ TEST_CASE("the two orders of a pair are one answer, mirrored") {
 }
 
 TEST_CASE("deep in each other: bounds on both sides of the widest gap that a dense search finds") {
-  // The spindle's differences with segments and triangles are nearly flat.
+  // The differences of the spindle with segments and triangles are nearly flat.
   const std::vector<std::pair<Cloud, double>> bodies{{box(0.3, 0.2, 0.1), 10},
                                                      {{{0, 0, 0}, {0.3, 0, 0}}, 0.5}};
   Random random(13);
@@ -146,7 +147,7 @@ TEST_CASE("deep in each other: bounds on both sides of the widest gap that a den
       CHECK(d.lower <= d.upper);
       CHECK((d.point[1] - d.point[0] - d.distance * d.normal).norm() <= 1e-14);
       CHECK(truth <= d.upper + 1e-9);
-      // Both are gaps along some normal, so neither can exceed the widest; the library's is no worse.
+      // Both are gaps along some normal, so neither can exceed the widest one. The library's is not worse.
       CHECK(d.distance >= truth - 1e-6 * (1e-3 - truth));
     }
   CHECK(deep > 150);
@@ -207,7 +208,7 @@ TEST_CASE("a needle is as far, and its normal unit, whichever shape it is writte
   for (int i = 0; i < trials(3000); ++i) {
     const double length = random.uniform(1, 20);
     const std::array<Vector3d, 2> end{Vector3d(0, 0, -length / 2), Vector3d(0, 0, length / 2)};
-    // A corner of the volume next to the needle, or right at its end.
+    // A corner of the volume next to the needle, or exactly at its end.
     const double gap = i % 4 == 0 ? 0.0 : length * std::pow(10.0, random.uniform(-13, -7));
     Vector3d beside = gap * random.direction();
     if (i % 2 == 0) beside.z() = 0;

@@ -1,4 +1,5 @@
-// The loops over a polytope's vertices beside plain ones, for every count that four at a time may leave.
+// The loops over a polytope's vertices, compared with plain loops, for every remainder of the vertex count
+// modulo four.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -19,7 +20,7 @@ TEST_CASE("vertices four at a time: their middle, the furthest from a point and 
     for (int i = 0; i < 50; ++i) {
       std::vector<Vector3d> vertices;
       for (int k = 0; k < count; ++k) {
-        // Many of them on a grid, so that several are equally far.
+        // Many of them are on a grid, so that several are equally far.
         Vector3d v = random.uniform(0, 1) * random.direction();
         if (i % 2 == 0) v = (2 * v).array().round();
         vertices.push_back(v);
@@ -53,7 +54,7 @@ TEST_CASE("vertices four at a time: their middle, the furthest from a point and 
         CHECK(std::equal(expected.begin(), expected.begin() + static_cast<long>(written), high.begin()));
         CHECK(high[static_cast<std::size_t>(count)] == -1);
       }
-      if (i % 4 == 0) {  // heights without rounding: the first of them
+      if (i % 4 == 0) {  // heights without rounding: the first of the equal ones must be found
         const auto first = std::find_if(vertices.begin(), vertices.end(),
                                         [&](const Vector3d& v) { return d.dot(v) == most; });
         CHECK(best == first - vertices.begin());
@@ -85,7 +86,8 @@ TEST_CASE("what a polytope's mean is said to be changes neither its ball nor whe
         for (const Vector3d& v : vertices) reach = std::max(reach, (v - shape.centre).norm());
         CHECK(shape.reach >= reach - 1e-15 * (1 + reach));
         CHECK(shape.reach <= reach + 1e-11);
-        for (int k = 0; k < count; k += 1 + count / 7)  // a vertex that is no number, wherever it is
+        // A vertex with a coordinate that is not finite, at any index.
+        for (int k = 0; k < count; k += 1 + count / 7)
           for (const double wrong : {kNaN, kInf, -kInf}) {
             Cloud broken = vertices;
             broken[static_cast<std::size_t>(k)][k % 3] = wrong;
@@ -122,7 +124,8 @@ TEST_CASE("a cap's vertex is as far along a direction as any, whatever was asked
           for (const Vector3d& v : vertices) most = std::max(most, d.dot(v));
           CAPTURE(count, scale, away, i);
           CHECK(std::find(vertices.begin(), vertices.end(), found) != vertices.end());
-          CHECK(d.dot(found) >= most - 2e-15 * size);  // three products and two sums, of either
+          // For each of the two: rounding of three products and two sums.
+          CHECK(d.dot(found) >= most - 2e-15 * size);
         }
       }
 }

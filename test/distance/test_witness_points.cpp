@@ -91,7 +91,7 @@ TEST_CASE("the normal from a box's corner to a rim is that of the two points") {
     if ((d.point[0].cwiseAbs() - crate.size).norm() > 1e-9) continue;
     const Vector3d corner = d.point[0].array().sign() * crate.size.array(), x = placed.inverse() * corner;
     const double across = x.head<2>().norm(), end = std::copysign(round.half, x.z());
-    // Beyond the rim's torus of normals a side, a disc or an apex is nearest.
+    // Beyond the rim's torus of normals, a side, a disc or an apex is nearest.
     const Vector3d rim(radius * x.x() / across, radius * x.y() / across,
                        round.kind == ShapeKind::cone ? -round.half : end);
     if ((placed * rim - d.point[1]).norm() > 1e-6) continue;
@@ -109,7 +109,8 @@ TEST_CASE("an upright cylinder or capsule beside an upright box: as far, to roun
     const Vector3d half(random.uniform(0.02, 0.5), random.uniform(0.02, 0.5), random.uniform(0.02, 0.5));
     const Cloud corners = box(half.x() * 2, half.y() * 2, half.z() * 2);
     const double radius = random.uniform(0.05, 1), length = random.uniform(0.05, 1);
-    // Past the box's edge along y, or before its face; in front of its middle GJK's points are lopsided.
+    // Past the box's edge along y, or in front of its face. In front of its middle, GJK's points are not
+    // symmetric.
     const double beyond = i % 2 ? random.uniform(0.001, 1) : i % 4 ? -half.y() : random.uniform(-half.y(), 0);
     const Vector3d shift(half.x() + 1.1 * radius + random.uniform(0, 1), half.y() + beyond,
                          random.uniform(-0.9, 0.9) * (half.z() + length / 2));
@@ -189,7 +190,7 @@ TEST_CASE("where an STP-BV touches a flat or long shape both witness points are 
   const Cloud crate = box(1, 1, 1);
   struct Side {
     Shape shape;
-    double half;  // from its origin to the side at -x
+    double half;  // distance from its origin to the side at -x
     double wide;  // how far the side reaches along y
   };
   const Side sides[] = {{Shape::boxOf({1, 1, 1}), 0.5, 0.4},
@@ -212,10 +213,11 @@ TEST_CASE("where an STP-BV touches a flat or long shape both witness points are 
             core + placed.linear() *
                        Vector3d(side.half, random.uniform(-side.wide, side.wide), random.uniform(-0.1, 0.4));
         const Distance touch = distance(*volume, at(0, 0, 0), side.shape, placed);
-        if (touch.status != DistanceStatus::exact) continue;  // deep by rounding
+        if (touch.status != DistanceStatus::exact) continue;  // deep because of rounding
         ++exact;
         CAPTURE(r, static_cast<int>(side.shape.kind), i);
-        CHECK(besideEachOther(touch) <= 2e-14);  // an ulp of the normal moves a face's point by 10 m of it
+        // An ulp of the normal moves a face's point by 10 m times that.
+        CHECK(besideEachOther(touch) <= 2e-14);
       }
       CHECK(exact > 100);
     }
@@ -243,13 +245,13 @@ TEST_CASE("no second derivative where all radii of curvature and the distance ca
     touching.translation() = one * a.support(one.linear().transpose() * n) -
                              touching.linear() * b.support(touching.linear().transpose() * -n);
     if (hessian(a, one, b, touching, distance(a, one, b, touching), h))
-      CHECK(h.matrix.cwiseAbs().maxCoeff() < 1e4);  // of two edges that cross there
+      CHECK(h.matrix.cwiseAbs().maxCoeff() < 1e4);  // for two edges that cross there
   }
-  // A volume's centre on another's, deep: the normal may be any.
+  // A volume's centre at another's, deep: the normal may be any.
   const StpBv::Ptr ball = StpBv::build({{0, 0, 0}}, {0.1, 1});
   const Distance d = distance(*ball, at(0, 0, 0), *ball, at(0, 0, 0));
   CHECK_FALSE(hessian(*ball, at(0, 0, 0), *ball, at(0, 0, 0), d, h));
-  // All but touching is no reason to refuse.
+  // A pair that almost touches has a Hessian.
   const Shape point = Shape::sphere(0);
   for (const double gap : {1e-3, 1e-6, 1e-9}) {
     const Distance near = distance(*ball, at(0, 0, 0), point, at(0.1 + gap, 0, 0));
@@ -295,8 +297,9 @@ TEST_CASE("where Newton's method goes to and fro between a needle's corners the 
   const Distance d = distance(hull, poseA, ellipsoid, poseB);
   REQUIRE(d.status == DistanceStatus::exact);
   constexpr double kDistance = 1.622114215970088141;  // by GJK in float128
-  CHECK(std::abs(d.distance - kDistance) < 2e-14);    // coordinates of 36 m
-  // The ellipsoid's point is where the normal is its own: to rounding of the coordinates over the radii.
+  CHECK(std::abs(d.distance - kDistance) < 2e-14);    // for coordinates of 36 m
+  // The ellipsoid's point is where its normal is the answer's, up to rounding of the coordinates divided by
+  // the radii.
   const Vector3d axes = ellipsoid.size, n = poseB.linear().transpose() * -d.normal,
                  onSurface = axes.cwiseAbs2().cwiseProduct(n) / axes.cwiseProduct(n).norm();
   CHECK((poseB * onSurface - d.point[1]).norm() < 1e-12);
@@ -351,7 +354,7 @@ TEST_CASE("shapes that the distance proves apart are farther than 0, however nea
     const double gap = std::pow(10.0, -8 - random.below(6));
     there.translation() += (gap - before.distance) * before.normal;
     const Distance d = distance(a, at(0, 0, 0), b, there);
-    if (d.lower < 1e-14) continue;  // rounding of such sizes hides less
+    if (d.lower < 1e-14) continue;  // for such sizes, a smaller distance may be rounding
     ++apart;
     CAPTURE(i, d.lower);
     CHECK(isFartherThan(0, a, at(0, 0, 0), b, there));

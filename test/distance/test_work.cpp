@@ -1,4 +1,4 @@
-// The work of a query, counted: a solver that slows down fails here whatever the machine does beside it.
+// Counts the work of a query, so that a slower solver fails here whatever else the machine does.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <string>
@@ -16,7 +16,7 @@ using fcl_stpbv::benchmark::Step;
 
 namespace {
 
-/// Means over the queries whose bodies overlap by no more than their margins, and the most of any of them.
+/// Means over the queries whose bodies overlap by at most their margins, and the largest value of a query.
 struct Work {
   double pairs = 0, steps = 0;
   int mostPairs = 0, mostSteps = 0;
@@ -51,7 +51,7 @@ Work workOf(const Cloud& cloud, const Step& step, bool warm) {
   return work;
 }
 
-/// What a workload may take: measured when it was written, and a tenth more.
+/// Limits for a workload: the values measured when this was written, plus a tenth.
 struct Bound {
   int subdivisions;
   bool large, warm;
@@ -81,6 +81,6 @@ TEST_CASE("A query on turning geodesic spheres takes no more work than it did, a
     CHECK(work.mostSteps <= bound.mostSteps);
     CHECK(work.allocated == 0);
     CHECK(work.notSolved == 0);
-    CHECK(work.queries > 20 * work.deeper);  // the motion still asks mostly what the bounds are about
+    CHECK(work.queries > 20 * work.deeper);  // most queries of the motion are those that the bounds are about
   }
 }

@@ -1,11 +1,12 @@
-// Whether lower <= truth <= upper as it stands: random pairs of volumes of sizes from a micrometre to 1000
-// km, with and without a margin, R up to 1e8 m, near the origin and 10 km from it, in both orders.
+// Checks that lower <= true value <= upper exactly as returned: random pairs of volumes with sizes from a
+// micrometre to 1000 km, with and without a margin, R up to 1e8 m, near the origin and 10 km from it, in both
+// orders.
 //
 //   truth_soak [QUERIES [SEED [DIGITS]]]
 //
-// The truth is enclosed along the answer's normal (enclosure.h), for every DIGITS-th query in a hundred
-// digits. Returns 1 where a bound misses the truth or the two orders exclude each other, and where too few
-// truths were known well enough to tell.
+// The true value is enclosed along the answer's normal (enclosure.h), for every DIGITS-th query in a hundred
+// digits. Returns 1 if a bound misses the true value, if the two orders exclude each other, or if too few
+// true values were known accurately enough.
 #include <cmath>
 #include <cstdio>
 
@@ -25,7 +26,7 @@ struct Body {
   StpBv::Ptr volume;
 };
 
-/// A body of about `scale` metres, R from half as much again to 1e8 m.
+/// A body of about `scale` metres, with R from 1.5 times the least to 1e8 m.
 Body randomBody(Random& random, double scale) {
   Body body;
   switch (random.below(4)) {
@@ -72,7 +73,8 @@ class Soak {
     pb.translation() += (gap - far.distance) * far.normal;
     const Distance d = distance(*a_.volume, pa, *b_.volume, pb), e = distance(*b_.volume, pb, *a_.volume, pa);
     if (!(e.lower <= d.upper && d.lower <= e.upper)) fail("the two orders exclude each other", d);
-    if (d.status != DistanceStatus::exact) return;  // 10 km away a pair of micrometres may land anywhere
+    // 10 km away, a pair of micrometres may end up in any position.
+    if (d.status != DistanceStatus::exact) return;
     ++exact_;
     const double size = a_.radii.R + b_.radii.R + scale_ + (pb.translation() - pa.translation()).norm();
     const double fine = kFine * (d.upper - d.lower);
@@ -94,9 +96,9 @@ class Soak {
 
  private:
   static constexpr long kQueriesOfAPair = 50;
-  // Truth known this well beside the certificate's width leaves a miss no room to hide.
+  // A true value that is known to this share of the certificate's width reveals every miss.
   static constexpr double kFine = 1e-2;
-  // A search in 113 bits takes a tenth of a second, so only every so manyth query gets one.
+  // A search in 113 bits takes a tenth of a second, so only one of this many queries gets one.
   static constexpr long kSearchedQuads = 500;
   template <class Real>
   void check(const Distance& d, const Isometry3d& pa, const Isometry3d& pb, bool search) {

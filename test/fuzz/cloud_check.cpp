@@ -1,5 +1,7 @@
-// 1. A cloud is built, measured and verified. 2. Normals are drawn at random, across three of its points, and
-// next to those. 3. Along each, checkBallHull() judges the core's surface point, and the points' height the
+// Checks a cloud:
+// 1. The cloud is built, measured and verified.
+// 2. Normals are drawn: random ones, those of planes through three points, and normals next to these.
+// 3. Along each, checkBallHull() checks the core's surface point, and the points' height checks the
 // over-cover.
 #include "test/fuzz/cloud_check.h"
 
@@ -20,7 +22,7 @@ using Eigen::Vector3d;
 
 namespace {
 
-// Normals at random, of planes through three points, and next to those.
+// Random normals, normals of planes through three points, and normals next to these.
 std::vector<Vector3d> normalsFor(const test::Cloud& points, test::Random& random) {
   std::vector<Vector3d> normals;
   const auto pick = [&] {
@@ -51,9 +53,9 @@ std::string complaintAbout(const CloudCase& c, test::Random& random) {
   const Verification found = verify(*volume, c.points, c.radii.r);
   if (!found.ok) return "verify: " + found.message;
 
-  // Points as close as the rounding of their coordinates count as one, and on a joined face heights of as
-  // much as 32 roundings are left. Where faces are joined, claimed points are 1e-12 of the radius off along
-  // the surface; and a normal is a unit vector but for a rounding, which rho multiplies.
+  // Points closer than the rounding of their coordinates count as one. On a joined face, heights of up to 32
+  // roundings remain. Where faces are joined, claimed points are off by 1e-12 of the radius along the
+  // surface. A unit normal has a rounding error, which rho multiplies.
   constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
   double largest = 0;
   for (const Vector3d& p : c.points) largest = std::max(largest, p.cwiseAbs().maxCoeff());

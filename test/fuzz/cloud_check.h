@@ -1,5 +1,4 @@
-// What the builder, its self-check and the measures make of a cloud, against a
-// check that shares no code with them.
+// Checks the builder, its self-check and the measures for a cloud, by code that shares nothing with them.
 #pragma once
 
 #include <string>
@@ -8,8 +7,8 @@
 
 namespace fcl_stpbv::fuzz {
 
-/// Empty where the cloud builds, verify() is content, the over-cover is measured and checkBallHull() agrees;
-/// else what is wrong.
+/// Empty if the cloud builds, verify() succeeds, the over-cover is measured and checkBallHull() agrees;
+/// otherwise what is wrong.
 std::string complaintAbout(const CloudCase& c, test::Random& random);
 
 }  // namespace fcl_stpbv::fuzz

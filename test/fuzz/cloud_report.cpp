@@ -1,5 +1,7 @@
-// How the builder, verify() and the measures do on nasty clouds, the figures of docs/stability.md:
-//   cloud_report [CLOUDS] [SEED]    nasty ones, and as many near-degenerate ones; exit status 1 where any is
+// Counts how the builder, verify() and the measures handle difficult clouds. The figures of
+// docs/stability.md:
+//   cloud_report [CLOUDS] [SEED]    CLOUDS difficult ones, and as many near-degenerate ones; exit status 1 if
+//   any is
 //   refused or wrong
 #include <cstdio>
 #include <cstdlib>

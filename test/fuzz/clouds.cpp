@@ -1,5 +1,8 @@
-// 1. A kind of cloud is drawn. 2. Points are doubled or added. 3. All are scaled, turned, shifted, and shaken
-// or rounded. 4. R is drawn, from just above the smallest one possible to far above it.
+// Makes a random cloud:
+// 1. Choose a kind of cloud.
+// 2. Duplicate or add points.
+// 3. Scale, turn and shift all points, and add noise or round them.
+// 4. Choose R, from just above the smallest possible one to far above it.
 #include "test/fuzz/clouds.h"
 
 #include <cmath>
@@ -16,7 +19,7 @@ Cloud base(Random& random) {
   Cloud cloud;
   const int count = 1 + random.below(30);
   switch (random.below(7)) {
-    case 0:  // a grid of small integers, points may repeat
+    case 0:  // a grid of small integers, in which points may repeat
       for (int i = 0; i < count; ++i) {
         const int side = 2 + random.below(3);
         const double x = random.below(side), y = random.below(side), z = random.below(side);
@@ -50,7 +53,7 @@ Cloud base(Random& random) {
         cloud.emplace_back(0.5 * random.uniform(-1, 1), random.uniform(-1, 1),
                            random.below(2) ? 0.25 : -0.25);
       break;
-    default:  // anywhere
+    default:  // random points
       for (int i = 0; i < count; ++i) cloud.push_back(random.uniform(0, 1) * random.direction());
       break;
   }
@@ -62,7 +65,7 @@ Cloud base(Random& random) {
 CloudCase nastyCloud(Random& random) {
   CloudCase c;
   c.points = base(random);
-  if (random.below(3) == 0) {  // doubles of some points, next to them
+  if (random.below(3) == 0) {  // copies of some points, next to them
     const double apart = std::pow(10.0, random.uniform(-17, -9));
     const std::size_t count = c.points.size();
     for (std::size_t i = 0; i < count; ++i)
@@ -115,7 +118,7 @@ CloudCase nearDegenerateCloud(Random& random) {
         c.points.push_back(a + random.uniform(-0.5, 1.5) * (b - a) + off(-17, -7));
       }
       break;
-    case 1:  // slivers: doubles of points, slid along by little and off by far less
+    case 1:  // slivers: copies of points, moved along by little and off by far less
       for (int k = 1 + random.below(4); k > 0; --k) {
         const Vector3d a = pick(), b = pick();
         c.points.push_back(a + 1e-9 * std::pow(10.0, random.uniform(-3, 1)) * (b - a) + off(-18, -10));
@@ -136,7 +139,7 @@ CloudCase nearDegenerateCloud(Random& random) {
         c.points.push_back(random.below(2) ? Vector3d(-p) : Vector3d(p.x(), -p.y(), p.z()));
       }
       break;
-    default:  // a box and points in its sides and edges
+    default:  // a box, and points on its sides and edges
       c.points = test::box(2, random.uniform(0.1, 2), random.uniform(0.001, 1));
       for (int k = random.below(6); k > 0; --k) {
         const Vector3d a = c.points[static_cast<std::size_t>(random.below(8))],

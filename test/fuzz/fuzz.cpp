@@ -1,9 +1,9 @@
-// Random inputs for all that builds, loads and asks, under the sanitizers; what fails is made small and kept.
+// Random inputs for building, loading and queries, under the sanitizers. Failing inputs are reduced and kept.
 //
 //   fuzz [SECONDS] [SEED] [CASES]
 //
-// replays the files of the folder CASES, then tries new ones. A failure is written there, named by its
-// target, and ends the run with 1.
+// Replays the files in the folder CASES, then tries new inputs. A failure is written there, named by its
+// target, and ends the run with status 1.
 #include <sys/time.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -24,12 +24,12 @@ namespace {
 using namespace fcl_stpbv;
 using namespace fcl_stpbv::fuzz;
 
-constexpr int kSeconds = 10;  // of processor time for one input, sanitized
-constexpr int kBatch = 200;   // inputs a child process tries
+constexpr int kSeconds = 10;  // processor time for one input, with sanitizers
+constexpr int kBatch = 200;   // inputs per child process
 
 std::string folder;
 
-/// Does what it is told in a child process; true if that fell over, failed a property or did not come back.
+/// Runs `work` in a child process. @returns true if it crashed, failed a property or did not end.
 template <class Work>
 bool fails(Work work, bool quiet) {
   std::fflush(nullptr);

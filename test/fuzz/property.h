@@ -1,4 +1,4 @@
-// How a target says that a property does not hold.
+// Functions with which a target reports that a property does not hold.
 #pragma once
 
 #include <cstring>
@@ -8,12 +8,12 @@
 
 namespace fcl_stpbv::fuzz {
 
-/// @throws std::logic_error saying `what` unless it holds.
+/// @throws std::logic_error with the text `what` unless `holds`.
 inline void must(bool holds, const char* what) {
   if (!holds) throw std::logic_error(what);
 }
 
-/// The library may refuse, in a message; nothing else may come out of it.
+/// Whether the library accepts the call. It may refuse with an Error; any other exception passes on.
 template <class Call>
 bool accepted(Call call) {
   try {

@@ -1,5 +1,5 @@
-// Inputs that are whole in form and wrong in substance: robots, tasks, volumes and configurations put
-// together from the right words in the wrong places, with the wrong numbers.
+// Inputs with a valid form but wrong contents: robots, tasks, volumes and configurations made of the right
+// words in the wrong places, with the wrong numbers.
 #include "test/fuzz/structured.h"
 
 #include <algorithm>
@@ -107,7 +107,7 @@ std::string jointText(int index, int count, Random& random) {
   return text + "</joint>\n";
 }
 
-/// Two bodies on hinges and a third one beside them, which is where everything else is tried.
+/// Two bodies on hinges and a third one beside them, with which everything else is tested.
 struct Scene {
   PostureScene scene;
   std::shared_ptr<const Kinematics> kinematics;
@@ -137,7 +137,7 @@ Scene& scene() {
   return all;
 }
 
-/// Somewhere in the tree another value, another name, or nothing.
+/// Puts another value or another name somewhere into the tree, or removes a part.
 void mutate(json& tree, Random& random) {
   if (tree.is_structured() && !tree.empty() && random.below(5)) {
     auto at = tree.begin();
@@ -247,7 +247,7 @@ void checkVolume(const std::string& text, const std::string&) {
   std::istringstream in(text);
   StpBv::Ptr volume;
   if (!accepted([&] { volume = loadStpBv(in, "fuzz"); })) return;
-  // Whatever was loaded holds all its vertices with the margin around them.
+  // Every volume that was loaded contains all its vertices with the margin around them.
   double size = volume->enclosingRadius();
   for (const Vector3d& p : volume->vertices()) size = std::max(size, p.norm());
   const double rounding = 1e-9 * size + 1e-14 * volume->radii().R;
@@ -298,7 +298,7 @@ void checkPosture(const std::string& text, const std::string&) {
   Eigen::VectorXd q = Eigen::VectorXd::Zero(rows.columns()), qd = q;
   std::istringstream in(text);
   std::string word;
-  for (Eigen::Index i = 0; i < 2 * q.size() && in >> word; ++i)  // nan too, which streams do not read
+  for (Eigen::Index i = 0; i < 2 * q.size() && in >> word; ++i)  // also reads "nan", which streams do not
     (i < q.size() ? q[i] : qd[i - q.size()]) = std::strtod(word.c_str(), nullptr);
   RowRates rates = rows.makeRates();
   Eigen::MatrixXd jacobian(rows.rows(), rows.columns());

@@ -1,6 +1,6 @@
-// The table of targets, and how a text gets damaged. Here are clouds, queries, files of volumes and of
-// points, URDF, SRDF and meshes: an Error is accepted, else volumes must hold their points and answers keep
-// their bounds. structured.cpp has the targets that are whole in form.
+// The table of targets, and the function that damages a text. This file has the targets for clouds, queries,
+// files of volumes and of points, URDF, SRDF and meshes. An Error is accepted. Otherwise volumes must contain
+// their points, and answers must keep their bounds. structured.cpp has the targets with a valid form.
 #include "test/fuzz/target.h"
 
 #include <cmath>
@@ -40,7 +40,7 @@ std::string textOf(const CloudCase& c) {
 
 std::string randomCloud(Random& random) { return textOf(nastyCloud(random)); }
 
-/// Whatever numbers a text holds; garbage ends it.
+/// The numbers in a text, up to the first invalid word.
 CloudCase cloudOf(std::istream& in) {
   CloudCase c;
   in >> c.radii.r >> c.radii.R;
@@ -55,7 +55,8 @@ void checkBuild(const std::string& text, const std::string&) {
   const CloudCase c = cloudOf(in);
   StpBv::Ptr volume;
   if (!accepted([&] { volume = StpBv::build(c.points, c.radii); })) return;
-  // The volume holds every point with the margin around it: no direction's supporting plane cuts one off.
+  // The volume contains every point with the margin around it, so no direction's supporting plane cuts a
+  // point off.
   double size = volume->enclosingRadius();
   for (const Vector3d& p : c.points) size = std::max(size, p.norm());
   const double rounding = 1e-12 * size + 1e-14 * c.radii.R;
@@ -97,7 +98,7 @@ void checkQuery(const std::string& text, const std::string&) {
   Eigen::Isometry3d pose[2] = {Eigen::Isometry3d::Identity(), Eigen::Isometry3d::Identity()};
   for (Eigen::Isometry3d& p : pose)
     for (int i = 0; i < 12; ++i)
-      for (std::string word; in >> word;) {  // nan too, which streams do not read
+      for (std::string word; in >> word;) {  // also reads "nan", which streams do not
         p.matrix()(i / 4, i % 4) = std::strtod(word.c_str(), nullptr);
         break;
       }
@@ -119,7 +120,7 @@ void checkQuery(const std::string& text, const std::string&) {
   }
 }
 
-/// A small volume as a file, damaged most of the time.
+/// A small volume as a file, which is damaged in most cases.
 template <void (*kSave)(std::ostream&, const StpBv&)>
 std::string randomFile(Random& random) {
   for (;;) try {
@@ -186,7 +187,7 @@ void checkSrdf(const std::string& text, const std::string& folder) {
 constexpr char kStl[] = "/fuzz.stl", kObj[] = "/fuzz.obj", kPly[] = "/fuzz.ply", kOff[] = "/fuzz.off",
                kDae[] = "/fuzz.dae", kGltf[] = "/fuzz.gltf";
 
-/// One target an extension, so that the first byte may be damaged too.
+/// One target per extension, so that the first byte may be damaged too.
 std::string stl() {
   std::string text = "solid s\n";
   for (int f = 0; f < 4; ++f) {

@@ -1,4 +1,4 @@
-// What is fuzzed: each target makes texts at random and says what must hold for any text at all.
+// The fuzz targets. Each makes random texts, and states a property that must hold for every text.
 #pragma once
 
 #include <string>
@@ -11,18 +11,18 @@ namespace fcl_stpbv::fuzz {
 struct Target {
   const char* name;
   std::string (*generate)(test::Random& random);
-  /// @throws std::logic_error where a property does not hold. Anything but
-  /// `Error` that the library throws passes on.
+  /// @throws std::logic_error if a property does not hold. Exceptions of the library other than `Error` pass
+  /// on.
   void (*check)(const std::string& text, const std::string& folder);
 };
 
 const std::vector<Target>& targets();
 
-/// Damages a text the way files get damaged: cut off, bits flipped, lines lost, doubled or swapped, numbers
-/// replaced by huge, negative, tiny or no numbers.
+/// Damages a text as files get damaged: cut off, with bits flipped, lines lost, duplicated or swapped, or
+/// numbers replaced by huge, negative, tiny or invalid ones.
 std::string damaged(std::string text, test::Random& random);
 
-/// A smaller text on which `fails` still holds: whole chunks go first, then lines, then bytes.
+/// A smaller text for which `fails` still holds. First whole chunks are removed, then lines, then bytes.
 template <class Fails>
 std::string shrunk(std::string text, Fails fails) {
   for (std::size_t chunk = text.size() / 2; chunk > 0; chunk /= 2)

@@ -1,4 +1,4 @@
-// A folder is written whole or not at all.
+// A folder is written completely or not at all.
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
@@ -68,7 +68,7 @@ TEST_CASE("a folder that cannot be written is left as it was, and nothing beside
   const std::string folder = around / "out";
   CHECK_THROWS_WITH(atomicWriteFolder(around / "none/out", {{"a", "one"}}), Contains("none/out"));
   atomicWriteFolder(folder, {{"a", "one"}});
-  const pid_t child = ::fork();  // with a limit that the second file is beyond
+  const pid_t child = ::fork();  // with a size limit that the second file exceeds
   if (child == 0) {
     const rlimit limit{1000, 1000};
     ::setrlimit(RLIMIT_FSIZE, &limit);

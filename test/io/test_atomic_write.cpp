@@ -1,4 +1,4 @@
-// A file is written whole or not at all.
+// A file is written completely or not at all.
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
@@ -127,7 +127,7 @@ TEST_CASE("a signal that another thread takes waits for the write as well") {
     const pid_t child = ::fork();
     REQUIRE(child >= 0);
     if (child == 0) {
-      const rlimit noCore{0, 0};  // SIGQUIT would leave one
+      const rlimit noCore{0, 0};  // otherwise SIGQUIT would leave a core file
       ::setrlimit(RLIMIT_CORE, &noCore);
       std::signal(signal, SIG_DFL);
       const auto writes = [&](const char* name) {
@@ -137,7 +137,7 @@ TEST_CASE("a signal that another thread takes waits for the write as well") {
         }
       };
       std::thread a(writes, "a"), b(writes, "b");
-      for (;;) ::pause();  // takes the signals
+      for (;;) ::pause();  // receives the signals
     }
     ::usleep(static_cast<useconds_t>(20000 + random.below(20000)));
     ::kill(child, signal);

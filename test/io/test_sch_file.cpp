@@ -1,5 +1,5 @@
-// sch-core's format: what we write means the same to its reader, what others
-// wrote loads, damaged files are refused.
+// sch-core's format: files written by the library mean the same to the format's reader, files of others load,
+// and damaged files are refused.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
@@ -32,8 +32,8 @@ StpBv::Ptr fromSch(const std::string& text) {
   return loadSch(in, "file");
 }
 
-// The support function as a reader of the format takes it: from the file's own numbers, in the feature whose
-// borders hold the direction best.
+// The support function as a reader of the format computes it: from the file's numbers, in the feature whose
+// borders contain the direction best.
 class Reader {
  public:
   explicit Reader(const std::string& text) : file_(sch::parse(text, "file")) {}
@@ -62,12 +62,12 @@ class Reader {
     return best_;
   }
 
-  /// How far the direction asked last is outside the feature taken, at most
-  /// rounding where the features tile the sphere.
+  /// How far the last direction is outside of its feature. It is at most rounding if the features tile the
+  /// sphere.
   double outside() const { return worst_; }
 
-  /// What the file's digits make of a support value: the sum of numbers as
-  /// large as a face's centre and radius.
+  /// Rounding of a support value by the file's digits: that of a sum of numbers as large as a face's centre
+  /// and radius.
   double rounding() const {
     double farthest = 0;
     for (const sch::Face& face : file_.faces) farthest = std::max(farthest, face.centre.norm());
@@ -153,7 +153,7 @@ TEST_CASE("files of sch-creator load, with the surface they describe within thei
       worst = std::max(worst, std::abs(claimed - rebuilt->support(n)));
     }
     CHECK(worst <= reader.rounding());
-    // What we make of it reads back exactly.
+    // The text written by the library reads back exactly.
     CHECK(fromSch(asSch(*volume))->vertices() == volume->vertices());
   }
 }

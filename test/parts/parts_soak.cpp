@@ -1,5 +1,5 @@
-// Parts of meshes from files: how many, how far from the mesh, how long they took, and how many of a number
-// of random points of the surface, and of about as many inside where every piece is closed, no part covers.
+// Parts of meshes from files: their number, their distance from the mesh, and the time. Also how many random
+// points of the surface, and about as many inside if every piece is closed, no part covers.
 //
 //   parts_soak SAMPLES PARTS MESH...
 #include <algorithm>
@@ -23,7 +23,7 @@ namespace {
 using namespace fcl_stpbv;
 using namespace fcl_stpbv::test;
 
-// A volume of r = 1 um around each part: what it holds is within rounding of the part.
+// A volume with r = 1 um around each part, which contains the part up to rounding.
 class Covered {
  public:
   explicit Covered(const ConvexParts& parts) {
@@ -45,8 +45,9 @@ long uncoveredOnSurface(const Covered& covered, const TriangleMesh& mesh, long s
   return open;
 }
 
-// Points between two of the surface, so many that about `samples` of them are inside: the first ten thousand
-// tell which share is. Whether a point is inside matters, and costs, only where no part covers it.
+// Random points between two points of the surface. Their number is chosen so that about `samples` of them are
+// inside; the first ten thousand show the share. Whether a point is inside is tested only if no part covers
+// it, because that takes time.
 long uncoveredInside(const Covered& covered, const TriangleMesh& mesh, long samples) {
   constexpr long kToTell = 10000;
   Random random(2);

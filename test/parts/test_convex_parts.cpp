@@ -1,4 +1,4 @@
-// Parts cover the mesh they are made of, keep close to it, and are no more than asked for.
+// Parts cover the mesh from which they are made, are close to it, and are not more than requested.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -26,7 +26,7 @@ PartsOptions quick(int most) {
   return options;
 }
 
-// A ball with spikes: cuts through its middle meet where no triangle is.
+// A ball with spikes. Cuts through its middle meet where there are no triangles.
 TriangleMesh spikyBall() {
   TriangleMesh mesh = finer(boxMesh({-0.06, -0.06, -0.06}, {0.06, 0.06, 0.06}), 3);
   for (Eigen::Vector3d& v : mesh.vertices) {
@@ -49,7 +49,7 @@ TriangleMesh caltrop(double size) {
   return mesh;
 }
 
-// Radii and heights turned about z, from the axis to the axis.
+// Radii and heights rotated about z. The profile starts and ends on the axis.
 TriangleMesh turnedProfile(const std::vector<std::pair<double, double>>& profile, int around) {
   TriangleMesh mesh;
   const int rings = static_cast<int>(profile.size());
@@ -139,7 +139,7 @@ TEST_CASE("no point of a part's hull is farther from the mesh than its bound say
 TEST_CASE("an L is two boxes, and two separate boxes are two parts") {
   const ConvexParts l = convexParts(lShape(), quick(8));
   CHECK(l.parts.size() == 2);
-  CHECK(l.excess < 2e-4);  // what the bound is known to
+  CHECK(l.excess < 2e-4);  // accuracy of the bound
   const ConvexParts boxes = convexParts(
       together({boxMesh({0, 0, 0}, {0.1, 0.1, 0.1}), boxMesh({0.3, 0, 0}, {0.4, 0.1, 0.1})}), quick(8));
   CHECK(boxes.parts.size() == 2);
@@ -155,7 +155,7 @@ TEST_CASE("an inside that no face of the mesh belongs to is covered too") {
   const std::vector<StpBv::Ptr> volumes = volumesOf(parts);
   Random random(37);
   int open = 0;
-  for (int i = 0; i < 1000; ++i) {  // of the tetrahedron
+  for (int i = 0; i < 1000; ++i) {  // random points of the tetrahedron
     Eigen::Vector4d weights;
     for (double& weight : weights) weight = random.uniform(0, 1);
     weights /= weights.sum();
@@ -167,8 +167,8 @@ TEST_CASE("an inside that no face of the mesh belongs to is covered too") {
 }
 
 TEST_CASE("joined faces grow until they hold an inside that none of them reaches") {
-  // A square tub over a hollow: its floor is thick, and in the middle of it no hull of faces that are near
-  // each other has a point.
+  // A square tub over a hollow. Its floor is thick, and no hull of faces that are near each other has a point
+  // in the middle of the floor.
   const TriangleMesh tub =
       turnedProfile({{0, 0.01}, {0.06, 0.01}, {0.1, 0}, {0.1, 0.3}, {0.08, 0.3}, {0.08, 0.04}, {0, 0.04}}, 4);
   PartsOptions options;
@@ -176,7 +176,7 @@ TEST_CASE("joined faces grow until they hold an inside that none of them reaches
   const ConvexParts parts = convexParts(tub, options);
   CHECK(parts.closedPieces == 1);
   CHECK(parts.parts.size() <= 10);
-  CHECK(parts.excess < 2e-4);  // what the bound is known to; by cuts it was 2 mm
+  CHECK(parts.excess < 2e-4);  // accuracy of the bound; by cuts it was 2 mm
   const std::vector<StpBv::Ptr> volumes = volumesOf(parts);
   Random random(41);
   int inside = 0, open = 0;
@@ -191,13 +191,13 @@ TEST_CASE("joined faces grow until they hold an inside that none of them reaches
 }
 
 TEST_CASE("more parts than eight are made from eight, and not farther from the mesh") {
-  // A search that begins with many parts has them cut before any is near the mesh.
+  // A search that begins with many parts cuts them before any of them is near the mesh.
   for (const TriangleMesh& mesh : {torusMesh(0.12, 0.03, 24, 10), spikyBall()}) {
     double least = std::numeric_limits<double>::infinity();
     for (const int most : {8, 16, 32}) {
       const ConvexParts parts = convexParts(mesh, quick(most));
       CHECK(parts.parts.size() <= static_cast<std::size_t>(most));
-      CHECK(parts.excess <= 1.01 * least);  // the search does not look at less
+      CHECK(parts.excess <= 1.01 * least);  // the search ignores smaller differences
       least = parts.excess;
     }
   }
@@ -207,12 +207,12 @@ TEST_CASE("a turned body is found in the cylinders that it is made of") {
   const ConvexParts parts = convexParts(dumbbell(20), quick(8));
   CHECK(parts.closedPieces == 1);
   CHECK(parts.parts.size() == 3);
-  CHECK(parts.excess < 2e-4);  // what the bound is known to
+  CHECK(parts.excess < 2e-4);  // accuracy of the bound
 }
 
 TEST_CASE("more parts are closer, and an excess asked for takes no more parts than it needs") {
   const TriangleMesh ring = torusMesh(0.12, 0.03, 24, 10);
-  // A ring's hull gets no closer by one cut: it takes a few at once.
+  // One cut does not bring a ring's hull closer to the mesh; that needs a few cuts at once.
   const double one = convexParts(ring, quick(1)).excess, eight = convexParts(ring, quick(8)).excess;
   CHECK(eight < 0.8 * one);
   PartsOptions within = quick(16);
@@ -224,7 +224,7 @@ TEST_CASE("more parts are closer, and an excess asked for takes no more parts th
 }
 
 TEST_CASE("an excess that few parts reach is reached, not missed by a little") {
-  // The search took parts 4 % too far from the mesh for near enough, three times over.
+  // Three times, the search took parts that were 4 % too far from the mesh for near enough.
   const TriangleMesh cup =
       turnedProfile({{0, 0}, {0.04, 0}, {0.04, 0.1}, {0.035, 0.1}, {0.035, 0.005}, {0, 0.005}}, 19);
   PartsOptions options;
@@ -247,7 +247,7 @@ TEST_CASE("a mesh too fine for the search is covered all the same") {
 }
 
 TEST_CASE("parts of a rough mesh, of which the search saw a coarser one, cover it and its inside") {
-  // Some parts have triangles of the coarse mesh alone.
+  // Some parts contain only triangles of the coarse mesh.
   constexpr int kRings = 42;
   std::vector<std::pair<double, double>> profile;
   for (int i = 0; i <= kRings; ++i) {
@@ -299,7 +299,7 @@ TEST_CASE("one triangle, slivers and lines are covered; no triangle at all is re
 
 TEST_CASE("lines and points in the plane of a cut stay on one side of it") {
   const Eigen::Vector3d far(0.12, 0.05, 0.02);
-  TriangleMesh mesh = lShape();  // with an inner face of y = 0.05 and one of x = 0.05
+  TriangleMesh mesh = lShape();  // with an inner face at y = 0.05 and one at x = 0.05
   const int first = static_cast<int>(mesh.vertices.size());
   for (const double x : {0.1, 0.12, 0.4}) mesh.vertices.push_back({x, far.y(), far.z()});
   for (const double y : {0.11, 0.12, 0.5}) mesh.vertices.push_back({0.05, y, 0.01});
@@ -322,7 +322,7 @@ TEST_CASE("lines and points in the plane of a cut stay on one side of it") {
 }
 
 TEST_CASE("bodies with faces that are not convex are found in the boxes that they are made of") {
-  // A U, whose two faces are U's themselves, and a ring of twelve wedges, whose upper face is a ring.
+  // A U, two of whose faces are U-shaped, and a ring of twelve wedges, whose upper face is a ring.
   TriangleMesh u = lShape();
   TriangleMesh other = u;
   for (Eigen::Vector3d& v : other.vertices) v.x() = -v.x();

@@ -1,4 +1,4 @@
-// The proof that hulls cover the inside of a mesh, on a cube in eight.
+// The proof that hulls cover the inside of a mesh, for a cube in eight parts.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <utility>
@@ -16,8 +16,8 @@ namespace {
 
 constexpr double kSlack = 1e-7;
 
-// The corners of each eighth of a cube of 2 m, moved a bit from its corner
-// in the middle, or without that one.
+// The corners of each eighth of a cube of 2 m. The corner in the cube's middle is moved a little, or left
+// out.
 std::vector<HullPlanes> eighths(bool middle, double gap = 0) {
   std::vector<HullPlanes> hulls;
   for (int k = 0; k < 8; ++k) {
@@ -38,7 +38,7 @@ TEST_CASE("eight boxes cover a cube, and not without the corners in its middle")
   CHECK(isInsideCovered(all, eighths(true), cube, kSlack));
   CHECK_FALSE(isInsideCovered(all, eighths(false), cube, kSlack));
   CHECK_FALSE(isInsideCovered(all, eighths(true, 1e-5), cube, kSlack));
-  CHECK(isInsideCovered(all, eighths(true, 1e-8), cube, kSlack));  // within what hulls are moved out
+  CHECK(isInsideCovered(all, eighths(true, 1e-8), cube, kSlack));  // less than hulls are moved outwards
   std::vector<HullPlanes> seven = eighths(true);
   seven.pop_back();
   CHECK_FALSE(isInsideCovered(all, seven, cube, kSlack));
@@ -58,7 +58,7 @@ TEST_CASE("a flat hull covers nothing, and a cell outside the mesh needs nothing
 }
 
 TEST_CASE("a floor of two flat hulls covers nothing between them, whatever is above it") {
-  // A pan: a box of 2 x 2 x 1 m, hollow from above but for a floor and walls.
+  // A pan: a box of 2 x 2 x 1 m that is hollow from above, with a floor and walls.
   const auto [floor, inner] =
       GENERATE(table<double, double>({{0.3, 0.7}, {0.3, 0.9}, {0.1, 0.9}, {0.1, 0.5}}));
   CAPTURE(floor, inner);

@@ -1,4 +1,4 @@
-// Distance from meshes, their insides, and the bound on how far a surface is from a mesh.
+// Distances from meshes, their insides, and the bound on the distance of a surface from a mesh.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -66,7 +66,7 @@ TEST_CASE("the distance from a triangle holds for slivers, needles and points") 
     const auto anywhere = [&] {
       return Vector3d(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
     };
-    const double width = std::pow(10, random.uniform(-17, 0));  // of a triangle a metre long
+    const double width = std::pow(10, random.uniform(-17, 0));  // width of a triangle a metre long
     const Vector3d a = anywhere(), b = anywhere(),
                    c = a + random.uniform(-0.5, 1.5) * (b - a) + width * anywhere();
     const Vector3d beside = anywhere() * std::pow(10, random.uniform(-16, 0));
@@ -75,11 +75,11 @@ TEST_CASE("the distance from a triangle holds for slivers, needles and points") 
     const double found = MeshSolid({{a, b, c}, {{0, 1, 2}}}).nearest(p).distance;
     const double u = (b - a).norm(), v = (c - a).norm(), sine = (b - a).cross(c - a).norm() / (u * v);
     const double sides = referenceDistance({{a, b, c}, {{0, 1, 1}, {1, 2, 2}, {2, 0, 0}}}, p);
-    if (sine > 1e-5) {  // rounding moves a foot in the plane by so much
+    if (sine > 1e-5) {  // rounding moves a foot in the plane by about 1e-15 / sine
       const double truth = referenceDistance({{a, b, c}, {{0, 1, 2}}}, p);
       below = std::max(below, truth - found);
       above = std::max(above, found - truth - 1e-15 / sine);
-    } else {  // of a sliver's plane the reference knows too little
+    } else {  // the plane of a sliver is too inaccurate in the reference
       below = std::max(below, sides - sine * std::min(u, v) - found);
       above = std::max(above, found - sides);
     }
@@ -110,8 +110,8 @@ TEST_CASE("a distance that is near enough ends the search for a nearer one") {
 }
 
 TEST_CASE("the excess of a needle ends") {
-  // A triangle of a hull with its corners on a line, beside the mesh's nearest triangle (upper arm of
-  // Interbotix' WX250). Nothing of it is over that triangle: cutting it off left the same needle.
+  // A triangle of a hull with its corners on a line, next to the mesh's nearest triangle (upper arm of
+  // Interbotix' WX250). No part of it is over that triangle, so cutting that part off left the same needle.
   const Vector3d left(-0.0496, -0.0215, 0.23575), middle(0.00144, -0.0215, 0.23575),
       right(0.0496, -0.0215, 0.23575);
   const TriangleMesh mesh{
@@ -204,7 +204,7 @@ TEST_CASE(
   exact.absolute = 1e-9;
   exact.relative = 1e-9;
   const MeshExcess excess = hullExcess(lShape().vertices, MeshSolid(lShape()), exact);
-  const double truth = 0.075;  // at (0.125, 0.125), from both arms
+  const double truth = 0.075;  // at (0.125, 0.125), which is equally far from both arms
   CHECK(excess.lower <= truth + 1e-9);
   CHECK(excess.upper >= truth - kRounding);
   CHECK(excess.upper - excess.lower < 2e-9);
@@ -267,13 +267,13 @@ TEST_CASE("a hull of no points, or of coordinates that are no numbers, is refuse
 
 TEST_CASE(
     "parts whose faces end on flat parts' borders and inside the solid are known to a millionth, quickly") {
-  // The lower box of an L, and the whole height of its upright: their faces lie on the
-  // L's own, in part, and cross its inside.
+  // The lower box of an L, and the whole height of its upright part. Their faces partly lie on the L's own
+  // faces and partly cross its inside.
   const MeshSolid solid(lShape());
   const Eigen::Vector3d low = solid.low(), high = solid.high();
   ExcessOptions fine;
   fine.absolute = 1e-6;
-  fine.queries = 2000;                  // halves alone would take more than 100,000
+  fine.queries = 2000;                  // halving alone would take more than 100,000
   std::vector<Eigen::Vector3d> corner;  // a box inside, whose faces lie on three of the L's
   for (int k = 0; k < 8; ++k)
     corner.push_back(low + 0.05 * Eigen::Vector3d(k & 1, k >> 1 & 1, k >> 2 & 1).cwiseProduct(high - low));

@@ -1,4 +1,4 @@
-// Meshes with faces written more than once: what they enclose stays the same.
+// Meshes with faces that were written more than once: they enclose the same space.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <string>
@@ -19,14 +19,14 @@ using Side = MeshSolid::Side;
 
 std::array<int, 3> opposite(const std::array<int, 3>& t) { return {t[0], t[2], t[1]}; }
 
-// Both sides of every face.
+// The mesh with both sides of every face.
 TriangleMesh doubleSided(TriangleMesh mesh) {
   const std::vector<std::array<int, 3>> faces = mesh.triangles;
   for (const auto& t : faces) mesh.triangles.push_back(opposite(t));
   return mesh;
 }
 
-// A cube of 1 m without its faces on the left and the right, and one of these.
+// A cube of 1 m without its left and right faces, and one of these faces.
 TriangleMesh tube(double x) {
   TriangleMesh mesh;
   for (int i = 0; i < 8; ++i) mesh.vertices.emplace_back(x + (i & 1), (i >> 1) & 1, i >> 2);

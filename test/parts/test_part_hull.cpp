@@ -23,7 +23,7 @@ TEST_CASE("a nearly flat cloud has a hull") {
   CHECK(hull.diagonal() == Approx((Vector3d(0, 0.025780756026506424, -0.038109373301267624) -
                                    Vector3d(0, -0.023986427113413811, -0.092878125607967377))
                                       .norm()));
-  CHECK(hull.volume < 1e-11);  // its area times 7 nm
+  CHECK(hull.volume < 1e-11);  // the hull's area times 7 nm
 }
 
 TEST_CASE("a flat cloud, a segment and a point have hulls of no volume") {
@@ -45,7 +45,7 @@ TEST_CASE("a cube's hull") {
 
 TEST_CASE("a hull holds all points of what cuts leave, and no more") {
   // Boxes from a cube to a plate a millionth as thick, with points all over their faces and inside, and one
-  // corner cut off: the cut's points are on its plane but for rounding.
+  // corner cut off. The points of the cut are on its plane up to rounding.
   test::Random random(4);
   for (int i = 0; i < 300; ++i) {
     const Vector3d size(1, std::pow(10, random.uniform(-3, 0)), std::pow(10, random.uniform(-6, 0)));
@@ -64,7 +64,7 @@ TEST_CASE("a hull holds all points of what cuts leave, and no more") {
     }
     const PartHull hull = partHull(points);
     double above = 0, volume = 0;
-    Vector3d closed = Vector3d::Zero();  // the sum of the faces' areas by their normals
+    Vector3d closed = Vector3d::Zero();  // sum of the faces' normals times their areas
     for (const Triangle& t : hull.surface) {
       const Vector3d n = (t[1] - t[0]).cross(t[2] - t[0]);
       closed += n;
@@ -72,7 +72,8 @@ TEST_CASE("a hull holds all points of what cuts leave, and no more") {
       for (const Vector3d& p : points) above = std::max(above, n.dot(p - t[0]) / std::max(n.norm(), 1e-12));
     }
     CAPTURE(i, size);
-    CHECK(above < 1e-10);  // a sliver's plane is known to rounding over its sine, which counts 1e-4 at least
+    CHECK(above < 1e-10);  // the plane of a sliver has an error of rounding divided by its sine, which counts
+                           // as at least 1e-4
     CHECK(closed.norm() < 1e-14);
     CHECK(std::abs(volume - hull.volume) <= 1e-10 * size.y() * size.x());
   }

@@ -1,11 +1,11 @@
-// The arms are URDF texts, put together joint by joint. Tasks for them are solved on a fixed base, without
+// The arms are URDF texts, composed joint by joint. Their tasks are solved with a fixed base and without
 // collisions.
 #include "test/posture/arms.h"
 
 namespace fcl_stpbv::test {
 namespace {
 
-// A joint from link `links[0]` to link `links[1]`, with its child.
+// A joint from link `links[0]` to link `links[1]`, and the child link.
 std::string jointed(const std::string& name, const std::string& type, const std::array<const char*, 2>& links,
                     const std::string& origin, const std::string& axis, const std::string& limits) {
   return std::string("<link name='") + links[1] + "'/><joint name='" + name + "' type='" + type +

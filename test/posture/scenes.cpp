@@ -1,4 +1,4 @@
-// Loads the robot of data/hrp2_style, and the fridge and the task of data/fridge. Volumes are built once a
+// Loads the robot of data/hrp2_style, and the fridge and the task of data/fridge. Volumes are built once per
 // program, without a cache.
 #include "test/posture/scenes.h"
 

@@ -8,7 +8,7 @@
 
 namespace fcl_stpbv::test {
 
-/// The HRP-2-style robot in front of the fridge, or of nothing.
+/// The HRP-2-style robot, in front of the fridge or without it.
 PostureScene hrp2Scene(bool fridge = true);
 std::shared_ptr<const RobotModel> fridgeModel();
 PostureTask pickCan();

@@ -1,5 +1,5 @@
 // Tasks whose equalities depend on each other: arms that cannot leave their plane or tilt their tool, targets
-// named twice, two frames of one link. Answers against closed forms and a dense search.
+// named twice, two frames of one link. Answers are compared with closed forms and a dense search.
 #include <catch2/catch.hpp>
 
 #include "fcl_stpbv/posture/independent_rows.h"
@@ -12,7 +12,8 @@ namespace {
 
 using Eigen::Vector2d;
 
-// Both elbows of links l1 and l2 from the origin to p: the first one's angle, and the second's beyond it.
+// Both solutions of links l1 and l2 from the origin to p: the angle of the first joint, and the second one's
+// relative to it.
 std::vector<Vector2d> elbows(const Vector2d& p, double l1, double l2) {
   const double cosine = (p.squaredNorm() - l1 * l1 - l2 * l2) / (2 * l1 * l2);
   std::vector<Vector2d> both;
@@ -22,7 +23,7 @@ std::vector<Vector2d> elbows(const Vector2d& p, double l1, double l2) {
   return both;
 }
 
-// Limits catch the first few starts now and then.
+// Many starts, because limits stop the first few in some cases.
 PostureOptions manyStarts() {
   PostureOptions options;
   options.starts = 50;
@@ -88,7 +89,7 @@ TEST_CASE("a planar arm reaches points of its plane at least cost") {
       CHECK(posture.cost < leastCost(kinematics, posture.q, 0.02) + 2e-5);
       least += posture.cost < leastCost(kinematics, q, 10) + 1e-4;
     }
-    CHECK(least >= 30);  // the others are least among their neighbours only
+    CHECK(least >= 30);  // the others are only local minima
   }
 }
 
@@ -106,7 +107,7 @@ TEST_CASE("a row that a planar arm cannot move changes nothing") {
     CHECK(without.feasible);
     same += std::abs(with.cost - without.cost) < 1e-4;
   }
-  CHECK(same >= 38);  // another local minimum may be as near
+  CHECK(same >= 38);  // another local minimum may be equally near
 }
 
 TEST_CASE("a SCARA, of fewer joints than a pose has rows, takes one of its two postures") {
@@ -118,7 +119,7 @@ TEST_CASE("a SCARA, of fewer joints than a pose has rows, takes one of its two p
     const Eigen::Isometry3d target = poseOf(scene, q, "tool");
     const Posture posture = found(scene, {wholePose("tool", target)});
     CHECK(posture.feasible == posture.conflict.empty());
-    if (!posture.feasible) continue;  // limits catch some
+    if (!posture.feasible) continue;  // limits prevent some
     ++feasible;
     double nearest = 10;
     for (const Vector2d& ab : elbows(target.translation().head<2>(), 0.4, 0.4)) {
@@ -157,11 +158,11 @@ TEST_CASE("what is asked twice is done once, at least cost") {
     INFO("reached by " << q.transpose());
     REQUIRE(twice.feasible);
     CHECK(twice.cost < leastCost(kinematics, twice.q, 0.02) + 2e-5);
-    // A frame of the same link beside its pose.
+    // A frame of the same link, in addition to the link's pose.
     const Eigen::Isometry3d hand = poseOf(scene, q, "hand");
     const Posture frames = found(scene, {wholePose("hand", hand), tip}, manyStarts());
     CHECK(frames.feasible == frames.conflict.empty());
-    if (!frames.feasible) continue;  // limits catch some
+    if (!frames.feasible) continue;  // limits prevent some
     ++poses;
     CHECK((poseOf(scene, frames.q, "hand").matrix() - hand.matrix()).norm() < 1e-5);
   }

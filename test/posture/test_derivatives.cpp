@@ -12,7 +12,8 @@ using namespace fcl_stpbv::test;
 
 namespace {
 
-// Differences of step h are good to about h^2 + 1e-16/h, here 1e-9 with room for the rows' size.
+// Differences with step h are accurate to about h^2 + 1e-16/h, which is 1e-9 here, with a margin for the
+// rows' size.
 constexpr double kStep = 1e-6, kAgree = 1e-7;
 
 Eigen::Vector3d randomPoint(Random& random, double size) {
@@ -84,7 +85,7 @@ TEST_CASE("a placement's derivatives agree with differences, whatever is free") 
 TEST_CASE("a placement's derivatives agree with differences next to where its rows vanish") {
   Random random(2);
   const auto kinematics = std::make_shared<const Kinematics>(hrp2Scene().robot, BaseMotion::floating);
-  for (const double away : {0.0, 1e-9, 1e-5, 5e-3, 2e-2}) {  // around the series' ends
+  for (const double away : {0.0, 1e-9, 1e-5, 5e-3, 2e-2}) {  // around the ends of the series
     for (const bool axisOnly : {false, true}) {
       Placement placement = placementOf(*kinematics, random);
       placement.free[5] = axisOnly;
@@ -240,9 +241,10 @@ TEST_CASE("collisions' derivatives agree with differences away from deep penetra
       const PostureValues after = problem.evaluate(x + step);
       const PostureValues before = problem.evaluate(x - step);
       for (int row = 0; row < problem.inequalities(); ++row) {
-        if (at.atLeast[row] < -0.005) continue;  // past the margins the way out may switch
+        if (at.atLeast[row] < -0.005) continue;  // deeper than the margins, the way out may change
         const double difference = (after.atLeast[row] - before.atLeast[row]) / (2 * kStep);
-        // A difference across a region boundary misses half a step times the curvature's jump, up to 1/r.
+        // A difference across a region boundary is off by half a step times the jump of the curvature, up to
+        // 1/r.
         CHECK(std::abs(difference - at.atLeastJacobian(row, i)) < 1e-4);
         ++compared;
       }

@@ -1,4 +1,5 @@
-// What is told as feasible is, and what is not has constraints that cannot hold together.
+// A posture reported as feasible is feasible, and an infeasible one has constraints that contradict each
+// other.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <stdexcept>
@@ -16,7 +17,8 @@ double amountOf(const std::vector<Violation>& list, const std::string& name) {
   return 0;
 }
 
-// Of each coordinate: it misses by 5 cm and more but within 0.3 of `room`, and least of all else at 0.
+// For each coordinate, the row's violation is at least 5 cm except within 0.3 of `room`, and it has a local
+// minimum at 0.
 class Pockets : public PostureRows {
  public:
   Pockets(int coordinates, double room) : coordinates_(coordinates), room_(room) {}
@@ -104,7 +106,7 @@ TEST_CASE("a point off a planar arm's plane is told by its row across the plane"
     REQUIRE(posture.conflict.size() == 1);
     CHECK(posture.conflict[0].name == "tip y");
     CHECK(posture.conflict[0].amount == Approx(off));
-    // What can hold does.
+    // The constraints that can be fulfilled are fulfilled.
     REQUIRE(posture.violations.size() == 1);
     CHECK(posture.violations[0].name == "tip y");
   }
@@ -146,7 +148,7 @@ TEST_CASE("the search ends by itself, also where the solver's line search would 
   PostureOptions options;
   options.starts = 1;
   options.mends = options.anywhere = 0;
-  options.solver.maxSeconds = 2;  // of which it takes a thousandth
+  options.solver.maxSeconds = 2;  // it takes a thousandth of this
   int missed = 0;
   for (int trial = 0; trial < 100; ++trial) {
     const int joints = 2 + trial % 2;
@@ -206,7 +208,7 @@ TEST_CASE("a search that is stopped ends there, and tells of no conflict") {
       options.solver.stop = [&] { return ++asked > models; };
       const Posture posture = found(scene, {position("tip", target)}, options);
       CAPTURE(target, models, asked, posture.status);
-      CHECK(asked <= models + 10);  // by each part of the search once more
+      CHECK(asked <= models + 10);  // each part of the search evaluates once more
       CHECK(posture.feasible == posture.violations.empty());
       CHECK(posture.conflict.empty());
       CHECK((posture.feasible || posture.status == "stopped"));

@@ -1,4 +1,4 @@
-// Whole postures: the fridge, tasks that cannot be done, starts that lead nowhere.
+// Whole postures: the fridge, tasks that cannot be solved, starts that fail.
 #include <catch2/catch.hpp>
 
 #include "fcl_stpbv/posture/find_posture.h"
@@ -12,7 +12,7 @@ using namespace fcl_stpbv::test;
 
 namespace {
 
-// The hand holds the can.
+// The pairs of the hand that holds the can.
 const std::vector<std::pair<std::string, std::string>> kHeld{{"LARM_LINK5", "can"}, {"LARM_LINK6", "can"}};
 
 Eigen::Isometry3d placed(const Kinematics& kinematics, const Eigen::VectorXd& q,
@@ -51,7 +51,7 @@ TEST_CASE("the can is taken from the fridge without a collision of the original 
   for (const PostureTask::Place& place : task.placements) {
     const Eigen::Isometry3d miss = placed(kinematics, posture.q, place);
     CHECK(miss.translation().norm() < 1e-4);
-    const Eigen::Vector3d axis = miss.linear().col(2);  // about which the hand may turn
+    const Eigen::Vector3d axis = miss.linear().col(2);  // axis about which the hand may turn
     CHECK((place.placement.free[5] ? (axis - Eigen::Vector3d::UnitZ()).norm()
                                    : (miss.linear() - Eigen::Matrix3d::Identity()).norm()) < 1e-4);
   }
@@ -77,7 +77,8 @@ TEST_CASE("the can is taken from the fridge without a collision of the original 
   const auto links = linksOf(setup.pairs, *scene.geometry);
   CHECK(check.collisions(kinematics, posture.q, links) == std::vector<std::string>{});
 
-  // The same without the collision constraints runs into the fridge, or the task would say nothing.
+  // Without the collision constraints, the posture runs into the fridge. Otherwise the task would test
+  // nothing.
   PostureSetup free = setUpWithoutCollisions(task, scene);
   const Posture careless = findPosture(free);
   REQUIRE(careless.feasible);
@@ -97,7 +98,7 @@ TEST_CASE("the same seed gives the same posture to the bit") {
 }
 
 TEST_CASE("a robot that faces anywhere takes the can as well") {
-  // The whole scene turned about z: rotation vectors of the base up to half a turn and past it.
+  // The whole scene turned about z. The base's rotation vectors go up to half a turn and beyond.
   for (const double yaw : {1.5, 3.0, M_PI, -2.5}) {
     const Eigen::Isometry3d turn(Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()));
     PostureScene scene = hrp2Scene();
@@ -117,7 +118,7 @@ TEST_CASE("a task that cannot be done names what pulls against what") {
   PostureScene scene = hrp2Scene(false);
   PostureTask task = pickCan();
   task.pairs.clear();
-  task.placements[2].placement.target.translation() = Eigen::Vector3d(1.6, 0.1, 1.0);  // a metre too far
+  task.placements[2].placement.target.translation() = Eigen::Vector3d(1.6, 0.1, 1.0);  // a metre too far away
   PostureSetup setup = setUp(task, scene);
   PostureOptions options;
   options.starts = 2;
@@ -153,10 +154,10 @@ TEST_CASE("JVRC-1 reaches for something with nothing about it in the code") {
   const std::vector<TestRobot> all = robots();
   const auto jvrc =
       std::find_if(all.begin(), all.end(), [](const TestRobot& r) { return r.name == "JVRC-1"; });
-  if (jvrc == all.end()) return;  // robots() has said so
+  if (jvrc == all.end()) return;  // robots() has reported this
   const LoadedRobot loaded = load(*jvrc);
   PostureScene scene{loaded.model, std::make_shared<const RobotGeometry>(loaded.geometry), nullptr, {}};
-  // It comes without an SRDF: the pairs are those that the pair list finds.
+  // The robot has no SRDF, so the pairs come from the pair list.
   PairListOptions search;
   search.samples = 200;
   auto srdf = std::make_shared<Srdf>();

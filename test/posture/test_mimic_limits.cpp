@@ -1,4 +1,4 @@
-// Joints that mimic others keep their own limits, which narrow those of the joints that they follow.
+// Mimic joints keep their own limits, which narrow the limits of the joints that they follow.
 #include <catch2/catch.hpp>
 
 #include "fcl_stpbv/error.h"
@@ -19,7 +19,7 @@ std::string mimics(const std::string& joint, double multiplier, double offset) {
          std::to_string(offset) + "'/>";
 }
 
-// A joint `j` of this type and limits, and others after it that follow.
+// A joint `j` of this type and with these limits, and joints that follow it.
 PostureScene followed(const std::string& leader, const std::vector<std::string>& followers) {
   std::string text = ball("base") + ball("l", 1) + joint("j", leader, "base", "l", limits(-2, 2));
   for (std::size_t i = 0; i < followers.size(); ++i) {

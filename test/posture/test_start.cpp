@@ -1,5 +1,5 @@
-// Where a task puts the base and the joints: a fixed base stands there, a planar one keeps its height, every
-// coordinate has its name; starts that lead nowhere.
+// The start of the base and the joints in a task: a fixed base stands there, a planar one keeps its height,
+// every coordinate has its name. Also starts that fail.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -15,7 +15,7 @@ namespace {
 const std::string kHinge =
     "<origin xyz='0 0 0.2'/><axis xyz='0 0 1'/><limit lower='-2' upper='2' effort='1' velocity='1'/>";
 
-// A ball at the end of an arm of 50 cm, 20 cm above its base, and a ball around which it may not go.
+// A ball at the end of an arm of 50 cm, 20 cm above its base, and a ball that is an obstacle.
 PostureScene armAmong(const std::string& obstacle) {
   return bodiesOf(ball("base") + ball("arm", 0.5) + joint("j", "revolute", "base", "arm", kHinge),
                   "<link name='world'/>" + ball("post") +
@@ -38,7 +38,8 @@ std::string refusalOf(const std::string& task, const PostureScene& scene) {
   return "";
 }
 
-// The arm's end, from the base at (5, 0, 1) turned by a quarter about z: at (5, 0.5, 1.2) with j = 0.
+// A task for the arm's end, with the base at (5, 0, 1) turned by a quarter about z: the end is at (5, 0.5,
+// 1.2) for j = 0.
 std::string standing(const std::string& base, const std::string& target) {
   return R"({"base": ")" + base +
          R"(", "start": {"base": {"position": [5, 0, 1], "rpy": [0, 0, 1.5707963267948966]}},
@@ -60,7 +61,7 @@ TEST_CASE("a fixed base stands where the task puts it") {
   CHECK(std::abs(posture.q[0]) < 1e-5);
   CHECK_FALSE(solved(standing("fixed", "[0, 0.5, 1.2]"), scene).feasible);
   CHECK_FALSE(solved(standing("fixed", "[0.5, 0, 0.2]"), scene).feasible);
-  // The obstacle is in the world, and in the way there.
+  // The obstacle is in the world, and it blocks the way there.
   const Posture blocked = solved(standing("fixed", "[5, 0.5, 1.2]"), armAmong("5 0.55 1.2"));
   CHECK_FALSE(blocked.feasible);
   REQUIRE_FALSE(blocked.conflict.empty());
@@ -87,7 +88,7 @@ TEST_CASE("a planar base keeps the height that the task gives it, and cannot be 
   Kinematics::State state = kinematics.makeState();
   kinematics.forward(posture.q, state);
   const Eigen::Vector3d end = state.link[1] * Eigen::Vector3d(0.5, 0, 0);
-  CHECK((end - Eigen::Vector3d(5.2, 0.6, 0.2)).norm() < 1e-5);  // x and y are the world's
+  CHECK((end - Eigen::Vector3d(5.2, 0.6, 0.2)).norm() < 1e-5);  // x and y are those of the world
   CHECK_FALSE(solved(standing("planar", "[5.2, 0.6, 0.2]"), scene).feasible);
   const std::string tilted =
       refusalOf(R"({"base": "planar", "start": {"base": {"rpy": [0.1, 0, 0]}}, "placements": []})", scene);
@@ -139,7 +140,7 @@ TEST_CASE("full turns of a start make no difference, but for a joint that others
   CHECK(isNear(of("c"), 4 - 2 * M_PI));
   CHECK(isNear(of("p/angle"), -50 + 16 * M_PI));
   CHECK(isNear(of("base/angle"), 7 - 2 * M_PI));
-  CHECK(of("l") == 4);  // half a turn less for `m` would be another posture
+  CHECK(of("l") == 4);  // half a turn less would be another posture for `m`
   const Eigen::VectorXd turned = startWith("floating", R"({"base/rx": 5, "base/rz": -1})");
   const Eigen::Vector3d given(5, 0, -1);
   const auto rotation = [](const Eigen::Vector3d& v) {
@@ -223,7 +224,7 @@ TEST_CASE("any number of starts is taken, from any one on") {
       CHECK_FALSE(posture.conflict.empty());
     }
   }
-  // Starts are the same one by one as in a row, also where their numbers begin anew.
+  // Starts are the same one by one and in a row, also where their numbers begin again.
   const auto violated = [&](int first, int starts) {
     options.firstStart = first;
     options.starts = starts;
@@ -255,7 +256,7 @@ TEST_CASE(
     const PostureSetup setup =
         setUp(taskOf(task(base, R"("state": "away", "base": {"position": [5, 0, 1]})")), scene);
     CHECK(setup.start[setup.start.size() - 1] == 0.3);
-    // As find_posture does, which shows the scene as the base sees it.
+    // As in find_posture, which shows the scene relative to the base.
     const auto [moved, around] =
         withBaseAtOrigin(taskOf(task(base, R"("state": "away", "base": {"position": [5, 0, 1]})")), scene);
     CHECK(setUp(moved, around).start == setup.start);

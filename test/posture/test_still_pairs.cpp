@@ -1,5 +1,4 @@
-// What is kept apart: pairs that nothing moves are checked all the same, and margins are kept whatever their
-// size.
+// Pairs that nothing moves are checked too, and margins of any size are kept.
 #include <catch2/catch.hpp>
 
 #include "test/posture/arms.h"
@@ -9,7 +8,8 @@ using namespace fcl_stpbv::test;
 
 namespace {
 
-// A ball on a slide along x, 3 m above a base that does not move, and a ball around the origin or elsewhere.
+// A ball on a slide along x, 3 m above a base that does not move, and an obstacle ball around the origin or
+// elsewhere.
 PostureScene slideAmong(const std::string& obstacle) {
   return bodiesOf(ball("base") + ball("slider") +
                       joint("s", "prismatic", "base", "slider",
@@ -19,7 +19,7 @@ PostureScene slideAmong(const std::string& obstacle) {
                       joint("at", "fixed", "world", "post", "<origin xyz='" + obstacle + "'/>"));
 }
 
-// Nothing but to stay where it is.
+// A task whose only goal is to stay in place.
 Posture stays(const PostureScene& scene, double at, const std::string& collisions,
               const std::string& base = "fixed") {
   PostureSetup setup =
@@ -45,13 +45,13 @@ TEST_CASE("a link that nothing moves is checked against obstacles") {
     CHECK(posture.conflict.front().amount == Approx(0.08));
     CHECK(posture.violations.size() == 1);
     CHECK(posture.status == "bodies that no joint can move apart collide");
-    CHECK(posture.q[0] == Approx(1));  // what can be done is
+    CHECK(posture.q[0] == Approx(1));  // the achievable part is achieved
   }
   CHECK(stays(inside, 1, R"({"ignore": [{"links": ["base"]}]})").feasible);
   CHECK(stays(inside, 1, R"({"margin": -0.09})").feasible);
   CHECK(stays(slideAmong("0 0.2 0"), 1, R"({"margin": 0.09})").feasible);
   CHECK_FALSE(stays(slideAmong("0 0.2 0"), 1, R"({"margin": 0.11})").feasible);
-  // A base that moves gets out of the way.
+  // A moving base gets out of the way.
   CHECK(stays(inside, 1, "{}", "planar").feasible);
 }
 

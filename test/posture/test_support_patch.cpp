@@ -1,5 +1,5 @@
-// A margin of the centre of mass from the support polygon's edges, as both are seen from above: contacts of
-// any tilt against distances to their projected edges, derivatives against differences.
+// A margin of the centre of mass from the support polygon's edges, both seen from above. Contacts of any tilt
+// are compared with distances to their projected edges, and derivatives with differences.
 #include <catch2/catch.hpp>
 
 #include "fcl_stpbv/posture/support_patch.h"
@@ -26,7 +26,7 @@ std::vector<Vector3d> randomPatch(Random& random) {
   return points;
 }
 
-// The projection of some points, as a polygon.
+// The convex polygon of some points' projections.
 std::vector<Vector2d> projected(const std::vector<Vector3d>& points, const Eigen::Isometry3d& link) {
   std::vector<Vector2d> seen, hull;
   for (const Vector3d& point : points) seen.push_back((link * point).head<2>());
@@ -34,7 +34,7 @@ std::vector<Vector2d> projected(const std::vector<Vector3d>& points, const Eigen
   return hull;
 }
 
-// How far a point is inside that projection; negative outside.
+// How far a point is inside that polygon; negative outside.
 double depth(const Vector2d& p, const std::vector<Vector3d>& points, const Eigen::Isometry3d& link) {
   const std::vector<Vector2d> hull = projected(points, link);
   double least = 10;
@@ -43,8 +43,8 @@ double depth(const Vector2d& p, const std::vector<Vector3d>& points, const Eigen
   return least;
 }
 
-// Radius of the largest circle in the projection of some points: that one which keeps farthest inside
-// of those that touch three of its edges.
+// Radius of the largest circle in the projection of some points. Circles that touch three of its edges are
+// tried.
 double largestCircle(const std::vector<Vector3d>& points, const Eigen::Isometry3d& link) {
   const std::vector<Vector2d> hull = projected(points, link);
   const auto edge = [&](std::size_t i) {
@@ -110,7 +110,7 @@ TEST_CASE("a patch's corners keep the margin from its edges as they are seen fro
       CHECK(depth(middle, points, link) >= margin - 1e-9);
       for (int k = 0; k < patch.corners(); ++k)
         CHECK(depth(patch.corner(k), points, link) == Approx(margin).margin(1e-7));
-    } catch (const Error&) {  // narrower than twice the margin, lying flat
+    } catch (const Error&) {  // narrower than twice the margin when lying flat
     }
   }
   CHECK(good > 500);
@@ -143,14 +143,14 @@ TEST_CASE("a patch has room for the margin where a circle of it has, whichever e
     try {
       SupportPatch patch(points, margin);
       patch.place(link, Eigen::Matrix3d::Identity());
-      if (patch.room(1) < 0) continue;  // next to upright
+      if (patch.room(1) < 0) continue;  // almost upright
       INFO(trial << ' ' << radius << ' ' << margin);
       CHECK(patch.room(0) == Approx(radius - margin).margin(1e-7));
       ++(radius > margin ? roomyOnes : others);
       if (radius < margin) continue;
       for (int k = 0; k < patch.corners(); ++k)
         CHECK(depth(patch.corner(k), points, link) == Approx(margin).margin(1e-7));
-    } catch (const Error&) {  // narrower than twice the margin, lying flat
+    } catch (const Error&) {  // narrower than twice the margin when lying flat
     }
   }
   CHECK(roomyOnes > 500);
@@ -226,7 +226,7 @@ TEST_CASE("points off one plane make the margin wider by as much") {
 }
 
 TEST_CASE("corners that the margin swallows, next to straight ones and needles") {
-  // A disc of short edges, a rectangle with a corner cut off, one with a corner that hardly stands out.
+  // A disc with short edges, a rectangle with a corner cut off, and one with a corner that hardly protrudes.
   std::vector<Vector3d> disc, cut = kSole, flat = kSole;
   for (int k = 0; k < 200; ++k)
     disc.push_back(0.1 * Vector3d(std::cos(k * M_PI / 100), std::sin(k * M_PI / 100), 0));
@@ -243,14 +243,15 @@ TEST_CASE("corners that the margin swallows, next to straight ones and needles")
 
 TEST_CASE("a foot that stands on a slope keeps the margin as it is seen from above") {
   for (const double angle : {0.0, 0.6, 1.0, 1.3, -1.0}) {
-    const double left = 0.05 * std::cos(angle);  // from the centre of mass to the nearer edge
+    const double left = 0.05 * std::cos(angle);  // distance of the centre of mass from the nearer edge
     INFO(angle);
     CHECK(tilted(angle, left - 1e-4).feasible);
     const Posture posture = tilted(angle, left + 1e-4);
     REQUIRE_FALSE(posture.feasible);
     CHECK(posture.conflict.front().name.find("stability") == 0);
   }
-  // Corners cut off by 1 cm are less than the margin flat, but more on a slope, or the other way round.
+  // Corners cut off by 1 cm are smaller than the margin when flat, but larger on a slope, or the other way
+  // round.
   std::vector<Vector3d> cut;
   for (const double y : {0.1, -0.1}) {
     cut.emplace_back(std::copysign(0.15, y), y * 0.9, -0.05);
@@ -263,7 +264,7 @@ TEST_CASE("a foot that stands on a slope keeps the margin as it is seen from abo
     CHECK(tilted(0.64, margin, cut).feasible);
     CHECK(tilted(-0.9, margin, cut).feasible);
   }
-  // A foot that stands next to upright has no margin at all.
+  // A foot that is almost upright has no margin.
   CHECK(tilted(1.54, 0).feasible);
   CHECK_FALSE(tilted(1.54, 1e-6).feasible);
 }

@@ -1,4 +1,4 @@
-// Task files: each mistake gets one message that names the file and the key.
+// Task files: each mistake gives one message that names the file and the key.
 #include <catch2/catch.hpp>
 
 #include "fcl_stpbv/error.h"
@@ -47,7 +47,7 @@ TEST_CASE("a task file's mistakes are named with their key") {
           "one of x, y");
   refused(R"({"placements": [{"link": "BODY", "target": {}, "free": ["rx", "ry"]}]})", "placement 'BODY'",
           "two rotations");
-  const std::string near = R"("cost": {"towards": "start"})";  // what the message says works
+  const std::string near = R"("cost": {"towards": "start"})";  // the message recommends this
   refused(R"({"placements": []})", "task.json",
           R"(asks for nothing; give a placement, contacts in "stability", or a "start" with )" + near);
   CHECK(parseTask(R"({"placements": [], "start": {"joints": {"LLEG_JOINT3": 1}}, )" + near + "}", "task.json")

@@ -17,8 +17,8 @@ using Pieces = std::vector<Piece>;
 namespace {
 
 constexpr double kFine = 1e-6;  // m: FCL's own default tolerance
-constexpr double kCoarse =
-    1e-3;  // m: points of an iteration that stops at kFine are off by the square root of kFine
+// m: points of an iteration that stops at kFine are off by the square root of kFine.
+constexpr double kCoarse = 1e-3;
 constexpr double kDepth = 1e-4;  // m: FCL's EPA stops between these two
 constexpr double kOurs = 1e-9;   // m: largest error of the library's bounded answers in these tests
 
