@@ -163,7 +163,7 @@ def test_a_count_below_zero_is_refused():
 
 @pytest.mark.parametrize("margin", [float("nan"), float("inf"), -1e7])
 def test_a_margin_that_is_no_length_is_refused(margin):
-    with pytest.raises(fcl_stpbv.Error, match="margin: got"):  # nothing collides within what is not a number
+    with pytest.raises(fcl_stpbv.Error, match="margin: got"):  # nothing collides within a margin that is not a number
         fcl_stpbv.PairSearch(str(ARM), margin=margin)
 
 
@@ -232,7 +232,7 @@ def test_shards_go_on_from_merged_results(proofs, tmp_path):
     few = [*PROVE[:5], "20", *PROVE[6:]]
     batch(*few, "--jobs", 1, "-o", tmp_path / "first")
     parts = [tmp_path / "0", tmp_path / "1"]
-    for number in range(8):  # of a round that several shards have, the next one is known after merging
+    for number in range(8):  # if several shards have jobs of a round, the next round is known only after merging
         for i, part in enumerate(parts):
             batch(*PROVE, "--shard", f"{i}/2", "--merge", tmp_path / "first", "-o", part)
         merged = warm_start.run("fcl_stpbv.batch", *PROVE, "--merge", *parts, "-o", tmp_path / "all", timeout=120)
@@ -276,7 +276,7 @@ def test_two_processes_find_what_one_does(tmp_path):
 
 
 def gltf(uri, **more):
-    """A cube of 1 m whose corners are in a file of this name, and what that file holds."""
+    """A cube of 1 m whose corners are in a file of this name, and the contents of that file."""
     corners = np.array(list(itertools.product((0, 1), repeat=3)), np.float32)
     document = {"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
                 "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
@@ -286,7 +286,7 @@ def gltf(uri, **more):
 
 
 def cube(path, uri, name=None):
-    """Writes such a mesh and its buffer, called `name` where that differs from what the mesh says."""
+    """Writes such a mesh and its buffer. The buffer's file is called `name` if that differs from the name in the mesh."""
     text, corners = gltf(uri)
     path.write_text(text)
     buffer = path.parent / (name or uri)
@@ -330,7 +330,7 @@ def test_no_buffer_is_read_from_elsewhere_and_a_damaged_gltf_fails_its_own_job(t
     assert all(str(mesh) in message for mesh in meshes) and "pipe.bin: is a folder, a pipe or a device, expected a file" in message
     (tmp_path / "away").mkdir()
     cube(tmp_path / "away/real.gltf", "beside.bin")
-    (folder / "mesh.gltf").symlink_to("../away/real.gltf")  # what a link's target has beside it belongs to it
+    (folder / "mesh.gltf").symlink_to("../away/real.gltf")  # files beside a link's target belong to the mesh
     (folder / "beside.bin").symlink_to("../away/beside.bin")
     assert dict(bundle.mesh_entries(folder / "mesh.gltf"))["beside.bin"] == corners
     (tmp_path / "away/old.gltf").write_text(gltf("", buffers={"b": {"uri": "beside.bin"}})[0])  # as glTF 1.0 lists them
@@ -397,7 +397,7 @@ def test_meshes_are_read_when_their_turn_comes(tmp_path):
     size = 4 << 20
 
     def memory(count):
-        """The most that such a run needs (bytes)."""
+        """The largest memory of such a run (bytes)."""
         meshes = [tmp_path / f"{count}_{i}.stl" for i in range(count)]
         for mesh in meshes:
             mesh.write_bytes(bytes(size))
@@ -435,7 +435,7 @@ def test_another_cluster_on_this_machine_goes_unnoticed(tmp_path):
     with socket.socket() as taken:
         taken.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
         with contextlib.suppress(OSError):  # it may be taken already
-            taken.bind(("", 8787))  # where a Dask scheduler serves its pages unless told otherwise
+            taken.bind(("", 8787))  # the default port of a Dask scheduler's pages
             taken.listen()
         done = cold_start(*PROVE, "--jobs", 2, "-o", tmp_path / "proofs.jsonl")
     assert done.returncode == 0 and "8787" not in done.stderr and "Warning" not in done.stderr, done.stderr
@@ -451,13 +451,13 @@ def test_a_volume_that_is_there_stays(tmp_path, here_or_there):
     message = batch(*convert, status=2)
     assert f"{volumes}/L.stpbv: exists already and is another volume" in message and message.count("\n") == 1
     (volumes / "L.stpbv").unlink()
-    batch(*convert)  # goes on
+    batch(*convert)  # continues
     written, files = (volumes / "L.stpbv").stat(), sorted(path.name for path in volumes.iterdir())
     assert files == ["BODY.stpbv", "L.stpbv", "L.tmp", "other"] and (volumes / "L.tmp").read_text() == "mine"
     (tmp_path / "out").unlink()
-    batch(*convert)  # as a run that was killed before it could note the volume
+    batch(*convert)  # like a run that was killed before it could note the volume
     assert (volumes / "L.stpbv").stat() == written
-    (volumes / "L.stpbv").write_text("mine")  # and not what its result says
+    (volumes / "L.stpbv").write_text("mine")  # differs from the recorded result
     assert "L.stpbv: exists already" in batch(*convert, status=2) and (volumes / "L.stpbv").read_text() == "mine"
 
 
@@ -524,7 +524,7 @@ def test_a_grid_moves_a_base_that_is_fixed(tmp_path):
     grid.write_text(json.dumps({"axes": [{"name": "up", "move": {"hand": [0, 0, 0]}, "base": [0, 0, 1], "from": 0, "to": 1, "count": 5}]}))
     batch("postures", robot, task, "--obstacles", scene, "--grid", grid, "--jobs", 1, "-o", tmp_path / "out")
     places = json.loads((tmp_path / "out").read_text().splitlines()[1])["places"]
-    assert [place["feasible"] for place in places] == [False, False, True, False, False]  # 1.5 m is reached from 0.5 m alone
+    assert [place["feasible"] for place in places] == [False, False, True, False, False]  # 1.5 m can only be reached from 0.5 m
     assert abs(places[2]["q"][0] - 0.25) < 1e-5
     assert [any(name == "base - base" for name, _ in place["conflict"]) for place in places] == [True, False, False, False, False]
     task.write_text(json.dumps({"base": "floating", "start": {"joints": {"base/z": 1}}, "placements": [placement]}))
@@ -626,7 +626,7 @@ def test_no_output_replaces_an_input_or_another_output(tmp_path):
     os.mkfifo(tmp_path / "pipe")
     for arguments in (["-o", tmp_path / "pipe"], ["-o", out, "--write-srdf", tmp_path / "pipe"]):
         assert "is a folder, a pipe or a device" in batch(*prove, *arguments, status=2) and (tmp_path / "pipe").is_fifo() and not out.exists()
-    batch("sample", robot, "--blocks", 1, "--count", 1, "--merge", tmp_path / "part_0", "-o", tmp_path / "part_0")  # this is meant
+    batch("sample", robot, "--blocks", 1, "--count", 1, "--merge", tmp_path / "part_0", "-o", tmp_path / "part_0")  # this is allowed
     assert (tmp_path / "part_0").read_bytes() == before[tmp_path / "part_0"]
 
 
@@ -667,7 +667,7 @@ def test_a_damaged_result_is_named_by_its_line(proofs, tmp_path):
         damaged = bad.read_bytes()
         message = batch(*command, "--jobs", 1, "-o", bad, status=2)
         assert f"{bad}:2: is damaged" in message and message.count("\n") == 1 and bad.read_bytes() == damaged
-        bad.write_bytes(b"".join(lines[:1] + lines[2:]))  # what the message says
+        bad.write_bytes(b"".join(lines[:1] + lines[2:]))  # the change that the message recommends
         batch(*command, "--jobs", 1, "-o", bad)
         assert bad.read_bytes() == good.read_bytes()
         good.unlink()
@@ -676,8 +676,8 @@ def test_a_damaged_result_is_named_by_its_line(proofs, tmp_path):
 
 
 def test_names_and_texts_of_any_bytes_are_taken_or_refused(tmp_path):
-    task = pathlib.Path(os.fsdecode(os.fsencode(tmp_path) + b"/t\xff.json"))  # no UTF-8
-    task.write_bytes(b"\xef\xbb\xbf" + (TOOLS / "reach.json").read_bytes())  # with the mark that some editors put first
+    task = pathlib.Path(os.fsdecode(os.fsencode(tmp_path) + b"/t\xff.json"))  # not UTF-8
+    task.write_bytes(b"\xef\xbb\xbf" + (TOOLS / "reach.json").read_bytes())  # with the byte-order mark that some editors write
     batch("postures", ARM, task, "--starts", 1, "--jobs", 1, "-o", tmp_path / "out")
     grid = tmp_path / "grid.json"
     grid.write_text(json.dumps({"axes": [{"name": "x", "move": {"tool": [1, 0, 0]}, "from": 0, "to": 0.1, "count": 2}]}))

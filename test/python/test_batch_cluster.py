@@ -31,7 +31,7 @@ def cold_start(module, *arguments):
 
 
 def many_jobs(kind, folder):
-    """The command of a batch of 50 jobs or more, each long enough for a kill to fall between them."""
+    """The command of a batch of at least 50 jobs, each long enough for a kill to fall between them."""
     if kind == "sample":
         return SAMPLE
     if kind == "prove":
@@ -40,7 +40,7 @@ def many_jobs(kind, folder):
         meshes = [folder / f"{i}.stl" for i in range(60)]
         for mesh in meshes:
             shutil.copy(DATA / "hrp2_style/meshes/LARM_LINK0.stl", mesh)
-        meshes[7].write_bytes(b"solid nothing")  # fails its own job and no other
+        meshes[7].write_bytes(b"solid nothing")  # makes its own job fail and no other
         return ["convert", *meshes, "--volumes", folder / "volumes"]
     task = json.loads((ARM.parent / "reach.json").read_text())
     if kind == "grid":
@@ -56,7 +56,7 @@ def many_jobs(kind, folder):
 
 
 class Batch:
-    """A batch and what one process makes of it."""
+    """A batch, and its result in one process."""
 
     def __init__(self, kind, folder):
         self.folder, self.arguments = folder, many_jobs(kind, folder)
@@ -107,12 +107,12 @@ def test_a_worker_killed_in_the_middle_changes_nothing(cluster, some):
     cluster.workers[0].send_signal(signal.SIGKILL)
     cluster.workers[0].wait()
     assert some.out.read_bytes().count(b"\n") < some.jobs, "it was not in the middle"
-    cluster.workers[0] = cluster.worker()  # now, as the other one may have ended by itself
+    cluster.workers[0] = cluster.worker()  # restarted now, because the other worker may have ended by itself
     assert run.wait(timeout=100) == some.status, run.communicate()
     assert some.out.read_bytes() == some.expected and some.files() == some.volumes
 
 
-@pytest.mark.parametrize("some", ["grid", "convert"], indirect=True)  # one that writes nothing else, one that does
+@pytest.mark.parametrize("some", ["grid", "convert"], indirect=True)  # one that writes no other files, and one that does
 def test_a_scheduler_that_dies_costs_no_result_and_a_new_one_goes_on(cluster, some):
     shutil.rmtree(some.folder / "volumes", ignore_errors=True)
     run = some.start("stopped", "--scheduler", cluster.address)
@@ -130,7 +130,8 @@ def test_a_scheduler_that_dies_costs_no_result_and_a_new_one_goes_on(cluster, so
 
 
 def test_a_connection_that_cannot_be_made_again_is_a_scheduler_that_is_gone(cluster, tmp_path):
-    # What Dask raises where it connects anew to fetch a result, and the scheduler goes meanwhile.
+    # The error that Dask raises when it connects again to fetch a result and the scheduler disappears
+    # meanwhile.
     broken = ("import sys, distributed, fcl_stpbv.batch.__main__ as batch\n"
               "def result(self): raise OSError('Timed out during handshake')\n"
               "distributed.Future.result = result\n"
@@ -180,7 +181,7 @@ def test_processes_that_the_machine_does_not_grant_are_named(tmp_path):
 
 
 def test_a_process_that_dies_while_it_starts_is_not_waited_for_for_ever(tmp_path):
-    # Dask hears nothing of one that is killed then.
+    # Dask is not told about a process that is killed then.
     broken = ("import asyncio, sys, distributed, fcl_stpbv.batch.__main__ as batch\n"
               "cluster = distributed.LocalCluster\n"
               "def soon(*workers, death_timeout, **more): return cluster(*workers, death_timeout='3s', **more)\n"

@@ -16,7 +16,7 @@ AXES = [{"name": "up", "move": UP, "from": -0.2, "to": 0.5, "count": 2}, {"name"
 
 
 def ask(folder, name, *more, axes=AXES, status=0):
-    """The records of a batch of this grid, or what it complains about."""
+    """The records of a batch for this grid, or its error message."""
     grid, out = folder / "grid.json", folder / name
     grid.write_text(json.dumps({"axes": axes}))
     said = batch("postures", ARM, TASK, "--grid", grid, "--starts", 2, *more, "-o", out, status=status)
@@ -24,14 +24,14 @@ def ask(folder, name, *more, axes=AXES, status=0):
 
 
 def target(row, column):
-    """Where the tool is to be; AXES told once more, by hand."""
+    """The place where the tool must be: AXES computed again, by hand."""
     up = [-0.2, 0.5][row // 2] + [0, 0.1][row % 2]
     along = -0.6 + 0.15 * column
     return np.array([0.35 + along, 0.2 + 0.5 * along, 0.3 + up])
 
 
 def tool_at(q):
-    """Where the arm's tool is, from its URDF alone."""
+    """The place of the arm's tool, from its URDF only."""
     turn, place, values = np.eye(3), np.zeros(3), iter(q)
     for joint in xml.etree.ElementTree.parse(ARM).getroot().iter("joint"):  # a chain, in order
         place = place + turn @ np.array(joint.find("origin").get("xyz").split() if joint.find("origin") is not None else [0] * 3, float)

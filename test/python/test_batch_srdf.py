@@ -22,7 +22,7 @@ def scene(path, **obstacles):
 
 
 def verdicts(path):
-    """{names of a pair: whether its proof is complete} from the lines alone."""
+    """{names of a pair: whether its proof is complete}, from the lines only."""
     rounds: dict[tuple, list] = {}
     for record in map(json.loads, path.read_text().splitlines()[1:]):
         rounds.setdefault(tuple(record["job"][:2]), []).append(record)
@@ -50,7 +50,7 @@ def test_an_srdf_leaves_out_what_is_proven_and_the_users_own_and_nothing_else(tm
     assert set(found.values()) == {"Never", "User", "Adjacent"}
     text = srdf.read_text()
     assert "<!-- mine -->" in text and "Obstacles were not looked at" in text and "Each Never is proven" in text
-    robot = fcl_stpbv.Robot(str(ARM), str(srdf))  # it loads, and what it checks is all the rest
+    robot = fcl_stpbv.Robot(str(ARM), str(srdf))  # it loads, and all other pairs are checked
     assert {tuple(sorted(row.split(" - "))) for row in robot.rows} == {tuple(sorted(pair)) for pair in verdicts(out)} - set(found)
     assert robot.configuration("up")[1] == 0.5
 
@@ -69,7 +69,8 @@ def test_a_pair_named_twice_is_left_out_once():
 
 
 def test_what_is_out_of_reach_is_proven_clear_and_what_is_hit_is_not(tmp_path):
-    # From the shoulder at 0.26 m the arm reaches less than 1.1 m with all its bodies; the far sphere is 3 m away, the near one in its way.
+    # With all its bodies the arm reaches less than 1.1 m from the shoulder at 0.26 m. The far sphere is 3 m
+    # away, the near one is in its way.
     around = scene(tmp_path / "scene.urdf", far="0 3 0.26", near="0.5 0 0.26")
     out, srdf = tmp_path / "out", tmp_path / "proven.srdf"
     batch(*PROVE, "--obstacles", around, "-o", out, "--write-srdf", srdf)
@@ -78,7 +79,7 @@ def test_what_is_out_of_reach_is_proven_clear_and_what_is_hit_is_not(tmp_path):
     assert all(of[link, "obstacle far"] for link in moving) and ("base", "obstacle far") not in of
     assert not of["forearm", "obstacle near"] and not of["flange", "obstacle near"] and of["shoulder", "obstacle near"]
     assert "flange and obstacle far" in srdf.read_text() and "flange and obstacle near" not in srdf.read_text()
-    assert set(left_out(srdf).values()) == {"Never", "Adjacent"}  # obstacles have no place in it
+    assert set(left_out(srdf).values()) == {"Never", "Adjacent"}  # obstacles do not belong into it
     search = fcl_stpbv.PairSearch(str(ARM), str(around))
     assert len(search.pairs) == search.link_pairs + 12
     hits = {pair: found[0] for pair, found in zip(search.pairs, search.sample(5, 0, 500))}
@@ -107,5 +108,5 @@ def test_wrong_srdfs_and_scenes_are_refused_before_anything_is_computed(tmp_path
         message = batch(*PROVE, *arguments, "-o", out, status=2)
         assert what in message and message.count("\n") == 1 and not out.exists()
     batch(*PROVE, "-o", out)
-    assert "bundle" in batch(*PROVE, "--obstacles", around, "-o", out, status=2)  # another question
+    assert "bundle" in batch(*PROVE, "--obstacles", around, "-o", out, status=2)  # another batch
     assert "--write-srdf" in batch(*PROVE, "-o", out, "--write-srdf", tmp_path / "no/a.srdf", status=2) and out.exists()

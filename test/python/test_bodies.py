@@ -52,14 +52,15 @@ def test_a_robot_has_the_distances_of_the_report_with_the_same_options(options, 
         found[links] = min(d, found.get(links, np.inf))
     assert found.keys() == expected.keys()
     for links, d in found.items():
-        assert d == pytest.approx(expected[links], abs=1e-9), links  # what the report writes
+        assert d == pytest.approx(expected[links], abs=1e-9), links  # the report's digits
     if given:
         assert abs(robot.distances(q) - usual.distances(q)).max() > 1e-4
 
 
 @pytest.mark.parametrize("search", [fcl_stpbv.PairSearch, fcl_stpbv.PostureSearch])
 def test_searches_fit_the_radii_as_a_robot_does(search, tmp_path):
-    # Two cubes of 2 cm, 4 mm apart, and one far off between them in the tree: r fitted to them is 1 mm, so that their volumes do not meet.
+    # Two cubes of 2 cm, 4 mm apart; a link far away is between them in the tree. r fitted to them is 1 mm, so
+    # their volumes do not meet.
     corners = [(x, y, z) for x in (-0.01, 0.01) for y in (-0.01, 0.01) for z in (-0.01, 0.01)]
     (tmp_path / "cube.obj").write_text("".join(f"v {x} {y} {z}\n" for x, y, z in corners) + "f 1 2 4\nf 1 4 3\nf 5 7 8\nf 5 8 6\nf 1 5 6\nf 1 6 2\n"
                                        "f 3 4 8\nf 3 8 7\nf 1 3 7\nf 1 7 5\nf 2 6 8\nf 2 8 4\n")

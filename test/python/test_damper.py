@@ -41,7 +41,7 @@ def test_rows_at_each_level_are_those_of_the_page(robot):
     seen = 0
     for q, qd in postures(robot, 1, 20):
         d, J, speed, drift = robot.rates(q, qd)
-        shallow = d > -0.02  # both margins; deeper the answer may depend on where the search starts
+        shallow = d > -0.02  # both margins; deeper answers may depend on where the search starts
         bounds = {"velocity": -a * (d - d_s), "acceleration": (-a * (d - d_s) - J @ qd) / PERIOD - drift,
                   "barrier": -drift - (a + GAIN) * (J @ qd) - a * GAIN * (d - d_s)}
         near = np.flatnonzero(d < d_i)
@@ -50,7 +50,7 @@ def test_rows_at_each_level_are_those_of_the_page(robot):
             assert damper.near == near.tolist() and A.shape == (len(near), len(q)) and b.shape == (len(near),)
             assert np.array_equal(A, damper.A[near]) and np.array_equal(b, damper.b[near])
             assert (damper.b[d >= d_i] == -np.inf).all()
-            # Another start, good to rounding; 1 / dt and the curvatures up to 1 / r magnify it.
+            # Another start, accurate to rounding, which 1 / dt and the curvatures up to 1 / r magnify.
             np.testing.assert_allclose(damper.A[shallow], J[shallow], rtol=0, atol=1e-9)
             both = shallow & (d < d_i)
             np.testing.assert_allclose(damper.b[both], bounds[level][both], rtol=1e-9, atol=1e-6)
@@ -142,7 +142,7 @@ def test_other_threads_go_on_during_an_update(robot):
     other, usual = threading.Thread(target=count), sys.getswitchinterval()
     other.start()
     try:
-        sys.setswitchinterval(1000)  # so that nothing takes the lock from this thread but its own release of it
+        sys.setswitchinterval(1000)  # so that this thread loses the lock only by releasing it
         deadline = time.monotonic() + 30
         met = False
         while not met and time.monotonic() < deadline:
@@ -176,7 +176,7 @@ def test_answers_have_the_points_and_normals_of_each_row():
         if answer.distance < robot.exact_up_to[row]:
             near += 1
             assert d[row] == pytest.approx(answer.distance, abs=1e-14)
-            # Central differences: 1e-15 / 1e-6 of rounding, magnified by 1 / r.
+            # Central differences: rounding of 1e-15 / 1e-6, magnified by 1 / r.
             np.testing.assert_allclose(moving[row].normal_velocity, (ahead[row].normal - behind[row].normal) / (2 * step), atol=1e-5)
             np.testing.assert_allclose(moving[row].point_velocities, (ahead[row].points - behind[row].points) / (2 * step), atol=1e-5)
     assert near > 3

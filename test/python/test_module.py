@@ -63,7 +63,7 @@ def test_the_gradient_is_what_differences_say():
     found = ask(0.5, angle)
     along_x = (ask(0.5 + step, angle).distance - ask(0.5 - step, angle).distance) / (2 * step)
     about_z = (ask(0.5, angle + step).distance - ask(0.5, angle - step).distance) / (2 * step)
-    # Central differences: 1e-16 / 1e-6 of rounding and step^2 times a third derivative of at most 1 / r^2.
+    # Central differences: rounding of 1e-16 / 1e-6, and step^2 times a third derivative of at most 1 / r^2.
     assert found.gradient[1, 0] == pytest.approx(along_x, abs=1e-8)
     assert found.gradient[1, 5] == pytest.approx(about_z, abs=1e-8)
 
@@ -188,7 +188,7 @@ def test_rates_and_hessians_of_a_robot_agree_with_its_jacobian():
     q = robot.configuration("half_sitting")
     qd = np.linspace(-1, 1, len(q))
     d, jacobian, speed, drift = robot.rates(q, qd)
-    np.testing.assert_allclose(d, robot.evaluate(q)[0], rtol=0, atol=1e-15)  # another start: good to rounding
+    np.testing.assert_allclose(d, robot.evaluate(q)[0], rtol=0, atol=1e-15)  # another start, so equal to rounding
     np.testing.assert_allclose(speed, jacobian @ qd, rtol=0, atol=1e-13)
     weights = np.linspace(0, 1, len(d))
     h = robot.hessian(q, weights)
@@ -202,8 +202,10 @@ def test_rates_and_hessians_of_a_robot_agree_with_its_jacobian():
         robot.hessian(q, d[:1])
     step, direction = 1e-6, np.random.default_rng(1).normal(size=q.size)
     slope = (robot.distances(q + step * direction) - robot.distances(q - step * direction)) / (2 * step)
-    # Second derivatives jump on region boundaries: up to step |direction|^2 (reach^2 / r + reach), reach about 1 m; most
-    # pairs are far apart and none of this posture's sits on one.
+    # Second derivatives jump on region boundaries: by up to step
+    # direction
+    # ^2 (reach^2 / r + reach), with a reach of about 1 m. Most pairs are far apart, and no pair of this
+    # posture is on a boundary.
     np.testing.assert_allclose(jacobian @ direction, slope, atol=1e-6)
     with pytest.raises(fcl_stpbv.Error, match="q: got"):
         robot.distances(q[:-1])
@@ -219,12 +221,12 @@ def test_a_batch_is_what_its_rows_are_one_by_one(path):
         q = q[0] + 1e-2 * np.cumsum(random.normal(size=q.shape), axis=0)
     d, jacobian = robot.evaluate_many(q, path=path, threads=2)
     assert d.shape == (70, len(robot.rows)) and jacobian.shape == (70, len(robot.rows), len(robot.names))
-    np.testing.assert_array_equal(d, robot.distances_many(q, path=path))  # any number of threads, bit by bit
+    np.testing.assert_array_equal(d, robot.distances_many(q, path=path))  # the same for any number of threads, bit by bit
     hit = robot.collides_many(q, margin=0.01, path=path, threads=2)
     assert hit.dtype == bool and hit.shape == (70,)
     for k in range(70):
         alone, alone_jacobian = robot.evaluate(q[k])
-        shallow = alone > -0.02  # both margins; deeper the answer may depend on where the search starts
+        shallow = alone > -0.02  # both margins; deeper answers may depend on where the search starts
         np.testing.assert_allclose(d[k][shallow], alone[shallow], rtol=0, atol=1e-13)
         np.testing.assert_allclose(jacobian[k][shallow], alone_jacobian[shallow], rtol=0, atol=1e-9)
         assert hit[k] == (alone.min() <= 0.01) == robot.collides(q[k], margin=0.01)
@@ -261,7 +263,7 @@ def test_paths_are_text_bytes_or_path_objects(tmp_path):
 
 
 def test_an_error_names_a_file_whatever_bytes_its_name_has():
-    name = os.fsdecode(b"no\xff.file")  # no UTF-8
+    name = os.fsdecode(b"no\xff.file")  # not UTF-8
     loaders: list[Callable] = [fcl_stpbv.Robot, fcl_stpbv.PairSearch, fcl_stpbv.PostureSearch, fcl_stpbv.mesh_files, fcl_stpbv.load_points,
                                fcl_stpbv.StpBv.load]
     for load in loaders:
@@ -323,7 +325,7 @@ def test_a_batch_ends_with_ctrl_c_and_the_robot_answers_on(ask):
         start = time.monotonic()
         getattr(robot, ask)(q)
         once = time.monotonic() - start
-        times = int(10 / once) + 2  # 10 s and more
+        times = int(10 / once) + 2  # at least 10 s
         many = np.broadcast_to(q, (times, *q.shape)).reshape(-1, q.shape[1])
         return seconds_until_ctrl_c_ends(lambda: getattr(robot, ask)(many)) < 0.5 * times * once
     assert any(ended_sooner() for _ in range(4))  # a busy machine may slow it down, but not each time
@@ -340,12 +342,12 @@ def pair_of(search, *links):
     lambda search, pair: search.sample(1, 0, 10**9)])
 def test_pieces_of_proofs_end_with_ctrl_c(ask):
     search = fcl_stpbv.PairSearch(DATA / "hrp2_style/hrp2_style.urdf")
-    pair = pair_of(search, "LARM_LINK1", "RARM_LINK6")  # 617,001 boxes, a minute and more
+    pair = pair_of(search, "LARM_LINK1", "RARM_LINK6")  # 617,001 boxes, which take at least a minute
     assert seconds_until_ctrl_c_ends(lambda: ask(search, pair)) < 10
 
 
 def test_a_search_for_a_posture_ends_with_ctrl_c(tmp_path):
-    links, ball = 500, "<collision><geometry><sphere radius='0.01'/></geometry></collision>"  # a minute in the solver, 0.1 s a model
+    links, ball = 500, "<collision><geometry><sphere radius='0.01'/></geometry></collision>"  # a minute in the solver, 0.1 s per model
     chain = "".join(f"<link name='l{i}'>{ball if i in (0, links - 1) else ''}</link>" for i in range(links)) + "".join(
         f"<joint name='j{i}' type='revolute'><parent link='l{i}'/><child link='l{i + 1}'/><origin xyz='0.15 0 0'/>"
         f"<axis xyz='0 {i % 2} {1 - i % 2}'/><limit lower='-1' upper='1' effort='1' velocity='1'/></joint>" for i in range(links - 1))
@@ -492,7 +494,7 @@ def test_a_robot_is_as_fine_as_its_needs_ask_for(hook):
     assert hulls.distances(q)[0] < 0  # in the notch: inside the hull
     same, unmet = hulls.model_for([])
     assert same.rows == hulls.rows and unmet == []
-    # The post's row is as far as it should be: 0.55 - 0.25, but for r and what R adds.
+    # The post's row has the expected distance: 0.55 - 0.25, except for r and the bulge of R.
     assert hulls.distances(q)[1] == pytest.approx(0.3, abs=0.004)
     needs = [("l", "block", q, 0.01), ("post_unknown", "block", q, 0.0)]
     with pytest.raises(fcl_stpbv.Error, match=r'needs\[1\]: .*"post_unknown"$'):
@@ -514,7 +516,7 @@ def test_a_robot_is_as_fine_as_its_needs_ask_for(hook):
     with pytest.raises(TypeError):
         hulls.model_for([("l", "block")])  # type: ignore[list-item]
 
-    # 5 cm from the block to either arm of the L; 4 cm are asked for, and 6 cm cannot be had.
+    # The block is 5 cm from either arm of the L. 4 cm can be kept, 6 cm cannot.
     needs = [("block", "l", q, 0.06), ("l", "block", q, 0.04), ("block", "l", np.ones(1), 0.3)]
     fine, unmet = hulls.model_for(needs, budgets=[0.05], threads=2)
     assert unmet == [0]
@@ -523,7 +525,7 @@ def test_a_robot_is_as_fine_as_its_needs_ask_for(hook):
     assert not fine.collides(q) and hulls.collides(q)
     assert fine.vertices < 40
 
-    # One more row, the hulls', stands for the parts where they are far; d jumps nowhere.
+    # If the parts are far, one more row, that of the hulls, replaces theirs. d does not jump anywhere.
     handing = fcl_stpbv.Robot(*files, r=0.001, hand_over=0.2).model_for(needs, budgets=[0.05])[0]
     assert len(handing.rows) == len(fine.rows) + 1
     far = handing.distances(np.ones(1))
@@ -531,7 +533,7 @@ def test_a_robot_is_as_fine_as_its_needs_ask_for(hook):
     path = np.linspace(-0.05, 1, 2000)[:, None]
     d, jacobian = handing.evaluate_many(path, path=True)
     assert abs(np.diff(d, axis=0)).max() < 2 * 1.05 / 2000  # slopes are at most 2
-    hit = handing.first_hit(q, margin=0.06)  # an index into rows, among which the hulls' is
+    hit = handing.first_hit(q, margin=0.06)  # an index into rows, which include that of the hulls
     assert hit is not None and 0.04 < handing.distances(q)[hit] <= 0.06
     with pytest.raises(fcl_stpbv.Error, match="^hand_over: got -1.0, .* above 0"):
         fcl_stpbv.Robot(*files, hand_over=-1)
@@ -562,7 +564,7 @@ def test_what_loading_warns_of_is_raised_and_kept(hook):
         with warnings.catch_warnings(), pytest.raises(UserWarning):
             warnings.simplefilter("error")
             load()
-    # A model of it has what it is made of to tell, and raises nothing anew.
+    # A model of the robot has the warnings about its bodies, and raises none again.
     with warnings.catch_warnings(record=True):
         robot = fcl_stpbv.Robot(urdf, hook / "other.srdf")
     with warnings.catch_warnings():
@@ -605,7 +607,7 @@ def test_a_model_tells_that_the_parts_of_an_open_mesh_do_not_fill_it(hook):
 
 
 def test_a_warning_names_a_file_whatever_bytes_its_name_has(hook):
-    name = os.fsencode(hook) + b"/no\xff.srdf"  # no UTF-8
+    name = os.fsencode(hook) + b"/no\xff.srdf"  # not UTF-8
     with open(name, "w") as file:
         file.write(OTHERS_SRDF)
     with pytest.warns(UserWarning, match=re.escape(os.fsdecode(name))):
@@ -634,7 +636,7 @@ def test_options_that_are_not_finite_raise(bad):
             fcl_stpbv.StpBv.build(BOX, **options)
         with pytest.raises(fcl_stpbv.Error):
             fcl_stpbv.Robot(urdf, **options)
-    if bad != math.inf:  # which is the default
+    if bad != math.inf:  # inf is the default
         with pytest.raises(fcl_stpbv.Error, match="influence"):
             fcl_stpbv.Robot(urdf, influence=bad)
 

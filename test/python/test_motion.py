@@ -22,7 +22,7 @@ def humanoid(**options):
 
 
 def near(robot, q, random, share):
-    """q with each joint moved by a share of its range, at most."""
+    """q with each joint moved by at most a share of its range."""
     span = np.minimum(robot.upper - robot.lower, 2 * math.pi)
     return q + share * span * random.uniform(-1, 1, size=q.size)
 
@@ -65,7 +65,7 @@ def test_motions_are_judged_as_dense_samples_see_them(margin):
 
 
 def spheres(folder, obstacle=False):
-    """A ball of 0.1 m that slides along x, 0.2 m beside one of 0.05 m at x = 1; two turns more move nothing that matters."""
+    """A ball of 0.1 m that slides along x, 0.2 m beside one of 0.05 m at x = 1. Two more balls turn, which has no effect."""
     ball = "<collision><origin xyz='{}'/><geometry><sphere radius='{}'/></geometry></collision>"
     limit = "<limit lower='-9' upper='9' effort='1' velocity='1'/>"
     (folder / "slide.urdf").write_text(
@@ -82,7 +82,7 @@ def spheres(folder, obstacle=False):
 @pytest.mark.parametrize("tolerance", [1e-2, 1e-4, 1e-9])
 def test_a_sliding_ball_meets_another_when_the_closed_form_says(tmp_path, obstacle, tolerance):
     robot = spheres(tmp_path, obstacle)
-    assert robot.distances([0.0])[0] == pytest.approx(math.hypot(1, 0.2) - 0.15, abs=1e-9)  # balls, to what covers them
+    assert robot.distances([0.0])[0] == pytest.approx(math.hypot(1, 0.2) - 0.15, abs=1e-9)  # balls, to the accuracy of their covers
     q0, q1 = np.array([-0.5]), np.array([2.5])
     for margin in (0.0, 0.04, -0.03):
         when = (1.5 - math.sqrt((0.15 + margin) ** 2 - 0.2**2)) / 3 if 0.15 + margin > 0.2 else None
@@ -95,7 +95,7 @@ def test_a_sliding_ball_meets_another_when_the_closed_form_says(tmp_path, obstac
         assert found.free_until - 1e-8 <= when <= found.contact_at + 1e-8 and found.contact_at - found.free_until <= tolerance
         assert not robot.is_motion_free(q0, q1, margin=margin)
         back = robot.first_contact(q1, q0, margin=margin, tolerance=tolerance)
-        assert back.free_until - 1e-8 <= when <= (back.contact_at or 0) + 1e-8  # 1 is the middle, so both ways are alike
+        assert back.free_until - 1e-8 <= when <= (back.contact_at or 0) + 1e-8  # 1 is the middle, so both directions are alike
         assert found.free_until > 0 and robot.is_motion_free(q0, q0 + (found.free_until - 1e-6) * (q1 - q0), margin=margin)
     d, time, proven = robot.closest_approach(q0, q1, precision=tolerance)
     assert proven and 0.05 - 1e-9 <= d[0] <= 0.05 + tolerance + 1e-9
@@ -154,7 +154,7 @@ def test_rows_of_links_in_parts_are_those_of_the_robot(hook):  # noqa: F811
             assert fine.distances([q1 * found.contact_at])[found.row] <= ROUNDING
             assert fine.distances([q1 * (found.free_until - 1e-4)]).min() > 0
         d, time, proven = fine.closest_approach([0.0], [0.2], precision=1e-6)
-        assert proven and np.isinf(d).sum() == (hand_over < 1)  # the hulls' row, which hands over
+        assert proven and np.isinf(d).sum() == (hand_over < 1)  # the row of the hulls, which hands over
         least = fine.distances_many(np.linspace(0, 0.2, 2001)[:, None]).min()
         assert d.min() == pytest.approx(least, abs=2e-4)
         finite = {name: value for name, value in zip(fine.rows, d) if value < math.inf}
@@ -194,7 +194,7 @@ def test_what_is_wrong_is_told_by_name(tmp_path):
     with pytest.raises(fcl_stpbv.Error, match="^q: .*not finite"):
         robot.first_unproven_motion([q, q, bad])
     empty: list[Any] = [[], np.zeros((0, q.size)), [q]]
-    for few in empty:  # no motion at all is not a free one
+    for few in empty:  # a path without motions is not a free one
         with pytest.raises(fcl_stpbv.Error, match="^q: has [01] way points, a motion needs two"):
             robot.first_unproven_motion(few)
     assert robot.is_motion_free(q, q) and robot.first_unproven_motion([q, q]) is None  # and it answers on
@@ -236,7 +236,7 @@ def test_links_too_far_away_are_not_free(tmp_path, far):
             assert found.verdict != FREE  # it passes the other ball at the very beginning
         if far > 1e100:
             assert found.verdict != FREE and not proven
-        if q0 == q1:  # what cannot be measured is not far, here as there
+        if q0 == q1:  # what cannot be measured is not far, as in distances()
             assert d[0] == pytest.approx(robot.distances(q0)[0], rel=1e-15)
 
 
@@ -274,7 +274,7 @@ def test_motions_leave_other_answers_alone():
     assert not robot.collides(q0, margin=0.02) and robot.first_contact(q0, q1, margin=0.5).verdict == CONTACT
     assert not robot.collides(q0) and robot.collides(q0, margin=0.5)  # each call has its own margin
     np.testing.assert_allclose(robot.distances(q0), before, rtol=0, atol=1e-14)
-    found, alone = robot.first_contact(q0, q1), other.first_contact(q0, q1)  # what is remembered changes the time only
+    found, alone = robot.first_contact(q0, q1), other.first_contact(q0, q1)  # the cache changes only the time
     assert (found.verdict, found.row) == (alone.verdict, alone.row) and found.free_until == pytest.approx(alone.free_until, abs=1e-4)
 
 

@@ -1,4 +1,4 @@
-// See allocations.h: glibc's malloc with a count. It sees what operator new takes, and Eigen's own memory.
+// See allocations.h: glibc's malloc with a counter. It counts allocations by operator new, and Eigen's own.
 #include "test/reference/allocations.h"
 
 #include <cstdlib>
@@ -10,13 +10,13 @@ using fcl_stpbv::test::allocations;
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 
-// They have a malloc of their own.
+// Sanitizers have a malloc of their own.
 void* operator new(std::size_t size) {
   ++allocations;
   if (void* p = std::malloc(size)) return p;
   throw std::bad_alloc();
 }
-void* operator new(std::size_t size, const std::nothrow_t&) noexcept {  // as std::stable_sort asks
+void* operator new(std::size_t size, const std::nothrow_t&) noexcept {  // used by std::stable_sort
   ++allocations;
   return std::malloc(size);
 }

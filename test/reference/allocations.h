@@ -5,7 +5,8 @@
 
 namespace fcl_stpbv::test {
 
-/// Calls of malloc and its like since the program started, in all threads; with sanitizers of operator new.
+/// Number of calls of malloc and similar functions since the program started, in all threads. With
+/// sanitizers, of operator new.
 extern std::atomic<long> allocations;
 
 }  // namespace fcl_stpbv::test

@@ -1,5 +1,5 @@
-// Command lines of programs that take a few plain numbers: anything else ends them with status 2, as a run
-// that tested nothing must not look like one that found nothing.
+// Command lines of programs that take a few plain numbers. Anything else ends the program with status 2,
+// because a run that tested nothing must differ from one that found nothing.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace fcl_stpbv::test {
 
 class Arguments {
  public:
-  /// `usage` names the arguments, such as "[QUERIES [SEED]]"; `most` is how many there may be.
+  /// `usage` names the arguments, such as "[QUERIES [SEED]]". `most` is the largest number of arguments.
   Arguments(int argc, char** argv, std::string usage, int most)
       : count_(argc - 1), argv_(argv), usage_(std::string(argv[0]) + " " + std::move(usage)) {
     if (count_ == 1 && (std::string_view(argv[1]) == "--help" || std::string_view(argv[1]) == "-h")) {
@@ -24,18 +24,18 @@ class Arguments {
       std::exit(0);
     }
     if (count_ > most) refuse();
-    std::atexit([] {  // results that nobody got are a failure, whatever they said
+    std::atexit([] {  // results that could not be written are a failure, whatever they are
       if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return;
       std::perror("standard output cannot be written");
       std::_Exit(2);
     });
   }
 
-  /// The argument `i`, counted from 1, or `standard` where there are fewer.
+  /// The argument `i`, counted from 1, or `standard` if there are fewer.
   template <class Number>
   Number number(int i, Number standard, Number least = 1) const {
     if (i > count_) return standard;
-    // No soak runs for thirty years.
+    // A limit, because no soak runs for thirty years.
     constexpr Number kMost =
         std::is_floating_point_v<Number> ? Number(1e9) : std::numeric_limits<Number>::max();
     const std::string_view word = argv_[i];
@@ -51,13 +51,13 @@ class Arguments {
     if (argv_[i][0] == '-') refuse();
     return argv_[i];
   }
-  /// The argument `i`, one of these words, or the first of them where there are fewer.
+  /// The argument `i`, which must be one of these words; the first of them if there are fewer arguments.
   std::string oneOf(int i, const std::vector<std::string>& words) const {
     const std::string word = text(i, words[0]);
     if (std::find(words.begin(), words.end(), word) == words.end()) refuse();
     return word;
   }
-  /// The arguments from `i` on, `least` of them or more.
+  /// The arguments from `i` on, at least `least` of them.
   std::vector<std::string> texts(int i, int least = 0) const {
     if (count_ - i + 1 < least) refuse();
     std::vector<std::string> all;

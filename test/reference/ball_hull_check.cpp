@@ -1,6 +1,9 @@
-// 1. The points' heights over the claimed ball. 2. The points that it touches, at most forty, no two at one
-// place. 3. Of each one, two and three of these, the weights whose mean is nearest to the line along n
-// through x, and the lower bound that ball_hull_check.h derives from them.
+// Checks the claim:
+// 1. Compute the points' heights over the claimed ball.
+// 2. Find the points that it touches: at most forty, no two at one place.
+// 3. For each one, two and three of these, find the weights whose mean is nearest to the line along n through
+// x,
+//    and the lower bound that ball_hull_check.h derives from them.
 #include "test/reference/ball_hull_check.h"
 
 #include <Eigen/Geometry>
@@ -13,8 +16,8 @@ namespace {
 
 using Vector = Eigen::Matrix<long double, 3, 1>;
 
-// A point along n, on two points' segment or in three points' triangle, that is
-// nearest to q across n: its weights.
+// Weights of the point nearest to the line along n through the origin, on two points' segment or in three
+// points' triangle.
 struct Weights {
   long double a, b, c;
 };
@@ -27,7 +30,7 @@ Weights onSegment(const Vector& a, const Vector& b, const Vector& n) {
 }
 
 Weights inTriangle(const Vector& a, const Vector& b, const Vector& c, const Vector& n) {
-  // Areas seen along n of the triangles that the origin makes with the sides.
+  // Areas, seen along n, of the triangles between the origin and the sides.
   const long double u = n.dot(b.cross(c)), v = n.dot(c.cross(a)), w = n.dot(a.cross(b)), sum = u + v + w;
   if (sum == 0 || u * sum < 0 || v * sum < 0 || w * sum < 0) return {-1, 0, 0};
   return {u / sum, v / sum, w / sum};
@@ -39,20 +42,22 @@ BallHullClaim checkBallHull(const std::vector<Eigen::Vector3d>& points, double r
                             const Eigen::Vector3d& normal, const Eigen::Vector3d& x) {
   const Vector n = normal.cast<long double>().normalized();
   const long double rho = radius;
-  std::vector<Vector> q;  // from x
+  std::vector<Vector> q;  // relative to x
   for (const Eigen::Vector3d& p : points) q.push_back(p.cast<long double>() - x.cast<long double>());
 
   long double outside = -std::numeric_limits<long double>::infinity(), size = 0;
   std::vector<std::pair<long double, Vector>> near;
   for (const Vector& p : q) {
-    // |p + rho n| - rho without its cancellation.
+    //
+    // p + rho n
+    //  - rho, without cancellation.
     const long double height = (p.squaredNorm() + 2 * rho * n.dot(p)) / ((p + rho * n).norm() + rho);
     outside = std::max(outside, height);
     size = std::max(size, p.norm());
     near.push_back({-height, p});
   }
-  // What the claimed ball touches bounds best; more points than needed do no harm,
-  // nor does one of several close together.
+  // The points that the claimed ball touches give the best bound. Additional points, or one of several close
+  // together, do no harm.
   std::sort(near.begin(), near.end(), [](const auto& s, const auto& t) { return s.first < t.first; });
   std::vector<Vector> touched;
   const long double rounding =
@@ -65,7 +70,8 @@ BallHullClaim checkBallHull(const std::vector<Eigen::Vector3d>& points, double r
       touched.push_back(p);
   }
 
-  long double lower = -std::numeric_limits<long double>::infinity();  // of the support, from n.x
+  // Lower bound on the support, relative to n.x.
+  long double lower = -std::numeric_limits<long double>::infinity();
   const auto consider = [&](const Vector& a, const Vector& b, const Vector& c, const Weights& w) {
     if (w.a < 0) return;
     const Vector y = w.a * a + w.b * b + w.c * c;

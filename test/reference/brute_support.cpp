@@ -1,5 +1,6 @@
-// 1. Candidates for the lowest centre: below one point, lowest on the circle of two points' spheres, both
-// points where three points' spheres meet. 2. The lowest one that lies in the balls around all points.
+// 1. Candidates for the lowest centre: below one point; the lowest point on the circle of two points'
+// spheres; both points where three points' spheres meet.
+// 2. The result is the lowest candidate that lies in the balls around all points.
 #include "test/reference/brute_support.h"
 
 #include <Eigen/Geometry>
@@ -16,7 +17,9 @@ long double bruteSupport(const std::vector<Eigen::Vector3d>& points, double r, d
   const long double rho = static_cast<long double>(R) - static_cast<long double>(r);
   long double scale = 0;
   for (const Vector& x : p) scale = std::max(scale, (x - p[0]).norm());
-  // |C - p|^2 <= rho^2 with the rounding of its own evaluation.
+  //
+  // C - p
+  // ^2 <= rho^2, with the rounding of this evaluation.
   const long double slack = 1e-17L * (rho * rho + scale * scale);
 
   long double best = 1e30L;

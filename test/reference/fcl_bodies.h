@@ -1,4 +1,4 @@
-// Bodies of FCL that several tests and benchmarks ask about: a volume as its geometry, a link, bumpy ground.
+// Bodies of FCL that several tests and benchmarks use: a volume as FCL's geometry, a link, bumpy ground.
 #pragma once
 
 #include <fcl/geometry/bvh/BVH_model.h>
@@ -29,8 +29,8 @@ std::shared_ptr<fcl::BVHModel<BV>> meshOf(const std::vector<Eigen::Vector3d>& po
   return mesh;
 }
 
-/// Ground of `squares` by `squares` squares, 2.4 m wide, whose corners are up to `height` high or deep:
-/// faces, edges and tops all get to be nearest.
+/// Ground of `squares` by `squares` squares, 2.4 m wide, whose corners are up to `height` high or deep, so
+/// that faces, edges and tops all become the nearest element.
 template <typename BV>
 std::shared_ptr<fcl::BVHModel<BV>> bumpyGround(std::size_t squares, double height) {
   std::vector<Eigen::Vector3d> points;

@@ -1,5 +1,5 @@
-// Pairs on which FCL stops on equal norms are written out with their distances. Field cases are read from
-// their file; their distances are here, in the file's order.
+// Pairs on which FCL stops because of equal norms are given here with their distances. Field cases are read
+// from their file; their distances are here, in the file's order.
 #include "test/reference/hard_cases.h"
 
 #include <array>

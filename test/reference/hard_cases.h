@@ -13,11 +13,11 @@ struct HardCase {
   std::string name;
   Cloud first, second;
   Eigen::Isometry3d pose1, pose2;
-  double distance;   ///< of the sharp polyhedra, signed
-  double tolerance;  ///< digits the distance is known to
+  double distance;   ///< signed distance of the sharp polyhedra
+  double tolerance;  ///< accuracy of the distance
 };
 
-/// Separated or touching pairs that FCL's stop on equal norms gets wrong
+/// Separated or touching pairs for which FCL is wrong because it stops on equal norms
 /// (flexible-collision-library/fcl#508).
 std::vector<HardCase> equalNormCases();
 

@@ -1,6 +1,7 @@
-// 1. All shapes are read again: primitives as FCL's shapes, meshes as its trees of triangles. 2. The
-// library's kinematics places them. 3. fcl::collide answers for each pair of links asked for, and for every
-// link with every obstacle that it must not touch.
+// 1. Read all shapes again: primitives as FCL's shapes, meshes as its trees of triangles.
+// 2. Place them by the library's kinematics.
+// 3. Call fcl::collide for each given pair of links, and for every link with every obstacle that it must not
+// touch.
 #include "test/reference/mesh_check.h"
 
 #include <fcl/geometry/bvh/BVH_model.h>

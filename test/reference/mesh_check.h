@@ -1,6 +1,5 @@
-// Whether a posture is free of collisions, asked of FCL about the original triangle
-// meshes: no STP-BV, no
-// hull and none of this library's distances take part.
+// Checks by FCL, on the original triangle meshes, whether a posture is free of collisions. It uses no STP-BV,
+// no hull and none of this library's distances.
 #pragma once
 
 #include <fcl/narrowphase/collision_object.h>
@@ -22,7 +21,7 @@ class MeshCheck {
             const std::vector<std::string>& packagePath,
             std::vector<std::pair<std::string, std::string>> allowed = {});
 
-  /// Obstacles in place of those there are: shapes of FCL, as they stand.
+  /// Replaces the obstacles by these: shapes of FCL at their poses.
   void setObstacles(const std::vector<Obstacle>& obstacles);
 
   /// Names of the pairs in collision at q: the given pairs of links, and all links with all obstacles.

@@ -1,4 +1,4 @@
-// A triangle's distance is its plane's where the foot lies inside, else its nearest side's. The winding
+// A triangle's distance is its plane's if the foot lies inside, otherwise its nearest side's. The winding
 // number is the sum of solid angles (Van Oosterom and Strackee, The solid angle of a plane triangle, 1983).
 #include "test/reference/mesh_reference.h"
 
@@ -20,7 +20,7 @@ Real fromSegment(const Vector& p, const Vector& a, const Vector& b) {
   return t <= 0 ? (p - a).norm() : t >= 1 ? (p - b).norm() : (p - a - t * d).norm();
 }
 
-// The plane's distance where the foot is left of all three sides, else that of the nearest side.
+// The plane's distance if the foot is to the left of all three sides, otherwise that of the nearest side.
 Real fromTriangle(const Vector& p, const Vector& a, const Vector& b, const Vector& c) {
   const Vector n = (b - a).cross(c - a);
   const bool over = n.squaredNorm() > 0 && n.dot((b - a).cross(p - a)) >= 0 &&

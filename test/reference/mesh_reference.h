@@ -10,10 +10,11 @@ namespace fcl_stpbv::test {
 /// Distance of a point from the triangles (m).
 double referenceDistance(const TriangleMesh& mesh, const Eigen::Vector3d& p);
 
-/// Solid angle of the triangles seen from `p` over 4 pi: a whole number for a closed mesh, not 0 inside.
+/// Solid angle of the triangles seen from `p` divided by 4 pi. For a closed mesh it is a whole number, and
+/// not 0 inside.
 double referenceWinding(const TriangleMesh& mesh, const Eigen::Vector3d& p);
 
-/// 0 where the winding number is not, else the distance (m).
+/// 0 if the winding number is not 0, otherwise the distance (m).
 double referenceSolidDistance(const TriangleMesh& mesh, const Eigen::Vector3d& p);
 
 }  // namespace fcl_stpbv::test

@@ -1,5 +1,5 @@
-// The n-th poses in closed form. Each body turns by n steps about three axes, in ratios that do not close
-// early; the distance of the centres is a seesaw.
+// The n-th poses in closed form. Each body turns by n steps about three axes, in ratios that avoid an early
+// repetition. The distance of the centres goes to and fro.
 #include "test/reference/motion.h"
 
 #include <cmath>
@@ -17,13 +17,13 @@ namespace {
 
 const double kDegree = std::acos(-1.0) / 180;
 
-/// Angles k, 0.77 k, 1.31 k about the three axes: the ratios keep the motion from closing early.
+/// Angles k, 0.77 k, 1.31 k about the three axes. These ratios avoid an early repetition of the motion.
 Matrix3d turned(double angle) {
   return Matrix3d(AngleAxisd(angle, Vector3d::UnitX()) * AngleAxisd(0.77 * angle, Vector3d::UnitY()) *
                   AngleAxisd(1.31 * angle, Vector3d::UnitZ()));
 }
 
-/// A seesaw of period 1 between 0 and 1.
+/// A triangle wave of period 1 between 0 and 1.
 double seesaw(double t) {
   const double phase = t - std::floor(t);
   return phase < 0.5 ? 2 * phase : 2 - 2 * phase;

@@ -11,8 +11,8 @@ namespace fcl_stpbv::benchmark {
 /// How far the bodies move between two queries.
 struct Step {
   const char* name;
-  double turn;   ///< about each of three axes (rad)
-  double shift;  ///< along the line of centres (m)
+  double turn;   ///< angle about each of three axes (rad)
+  double shift;  ///< distance along the line of centres (m)
 };
 
 Step largeStep();  ///< 20 degrees, 2 cm
@@ -22,14 +22,14 @@ struct Poses {
   std::vector<Eigen::Isometry3d> a, b;
 };
 
-/// Poses one after the other. The angles advance by incommensurable steps, so no configuration comes twice.
+/// A sequence of poses. The angles advance by incommensurable steps, so no configuration occurs twice.
 class GeodesicMotion {
  public:
   /// Centres 0.38 m to 0.80 m apart; at spheres of radius 0.20 m the nearest 5 % overlap.
   static constexpr double kNearest = 0.38, kRange = 0.42;
 
-  /// Both steps go to and fro a whole number of times in as many queries as this, so blocks of this length
-  /// ask for the same mixture of distances.
+  /// After this number of queries both steps have gone to and fro a whole number of times. So blocks of this
+  /// length have the same mixture of distances.
   static constexpr int kCycle = 840;
 
   GeodesicMotion(const Step& step, std::uint64_t seed, double nearest = kNearest);

@@ -1,5 +1,5 @@
-// The normals that a cutting-plane search over directions has left: a convex polygon in the plane of points
-// z + u x + v y (gnomonic projection), in numbers of any precision.
+// The normals that remain in a cutting-plane search over directions: a convex polygon in the plane of the
+// points z + u x + v y (gnomonic projection), in numbers of any precision.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -13,14 +13,18 @@ class NormalPolygonOf {
  public:
   using Vector3 = Eigen::Matrix<Real, 3, 1>;
 
-  /// All normals n around the unit vector z with |n.x|, |n.y| at most `half` times n.z.
+  /// All normals n around the unit vector z for which
+  /// n.x
+  ///  and
+  /// n.y
+  ///  are at most `half` times n.z.
   NormalPolygonOf(const Vector3& z, Real half)
       : z_(z),
         x_(z.unitOrthogonal()),
         y_(z.cross(x_)),
         corners_{{-half, -half}, {half, -half}, {half, half}, {-half, half}} {}
 
-  /// Keeps the normals n with g.n >= 0. @returns false where no area is left.
+  /// Keeps the normals n with g.n >= 0. @returns false if no area is left.
   bool cut(const Vector3& g) {
     const auto side = [&](const Vector2& c) { return g.dot(z_ + c.x() * x_ + c.y() * y_); };
     std::vector<Vector2> kept;
@@ -47,7 +51,7 @@ class NormalPolygonOf {
     return true;
   }
 
-  /// The normal at the centroid, of the length that the projection gives it.
+  /// The normal at the centroid, with the length that the projection gives it.
   Vector3 centre() const { return z_ + centroid_.x() * x_ + centroid_.y() * y_; }
   /// Distance of the first corner to the farthest one, after a cut.
   Real size() const { return size_; }

@@ -1,5 +1,5 @@
-// reference_of.h for long double. A rotation is made orthogonal by Newton's iteration; the widest gap is
-// looked for along a Fibonacci spiral of directions.
+// reference_of.h for long double. A rotation is made orthogonal by Newton's iteration. The widest gap is
+// searched along a Fibonacci spiral of directions.
 #include "test/reference/reference.h"
 
 #include <Eigen/LU>

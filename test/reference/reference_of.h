@@ -11,8 +11,8 @@
 
 namespace fcl_stpbv::test {
 
-/// The lowest centre along `n` whose ball of radius `rho` holds these one, two or three points, all on its
-/// surface; false when there is none.
+/// The lowest centre along `n` whose ball of radius `rho` has these one, two or three points on its surface.
+/// False if there is none.
 template <class Real>
 bool lowestCentre(const std::vector<Vector3Of<Real>>& p, const Vector3Of<Real>& n, Real rho,
                   Vector3Of<Real>& centre) {
@@ -41,8 +41,8 @@ bool lowestCentre(const std::vector<Vector3Of<Real>>& p, const Vector3Of<Real>& 
   return true;
 }
 
-/// The lowest feasible centre for a few points: the best over their subsets
-/// of at most three, kept in `basis`.
+/// The lowest feasible centre for a few points: the best over their subsets of at most three. `basis` becomes
+/// the best subset.
 template <class Real>
 Vector3Of<Real> solveSmall(std::vector<Vector3Of<Real>>& basis, const Vector3Of<Real>& n, Real rho,
                            Real tolerance) {
@@ -59,7 +59,8 @@ Vector3Of<Real> solveSmall(std::vector<Vector3Of<Real>>& basis, const Vector3Of<
     if (!lowestCentre(chosen, n, rho, centre)) continue;
     Real miss = 0;
     for (const Vector3Of<Real>& q : all) miss = std::max(miss, (q - centre).norm() - rho);
-    // Feasible ones compete in height; should rounding leave none, the one that misses least wins.
+    // Feasible centres are compared by height. If rounding leaves none, the centre that misses least is
+    // taken.
     const bool feasible = miss <= tolerance;
     const Real height = n.dot(centre);
     if (feasible ? (leastMiss > tolerance || height < lowest) : miss < leastMiss) {
@@ -78,8 +79,8 @@ ReferenceBodyOf<Real> bodyOf(const Cloud& points, double r, double R, const Eige
   body.r = r;
   body.R = R;
   Eigen::Matrix<Real, 3, 3> rotation = pose.linear().cast<Real>();
-  // A body is rigid: without this a rotation matrix's rounding would stretch
-  // it, which shows near the smallest R.
+  // A body is rigid. Without this, the rounding of a rotation matrix would stretch it, which is noticeable
+  // near the smallest R.
   for (int i = 0; i < 4; ++i) rotation = (rotation * 3 - rotation * rotation.transpose() * rotation) / 2;
   const Vector3Of<Real> translation = pose.translation().cast<Real>();
   for (const Eigen::Vector3d& p : points) body.points.push_back(rotation * p.cast<Real>() + translation);
@@ -89,7 +90,7 @@ ReferenceBodyOf<Real> bodyOf(const Cloud& points, double r, double R, const Eige
 template <class Real>
 Real supportOf(const ReferenceBodyOf<Real>& body, const Vector3Of<Real>& n,
                Vector3Of<Real>* corePoint = nullptr) {
-  // The library rounds R - r once and takes that for rho; near the smallest R this rounding shows.
+  // The library rounds R - r once and uses that as rho. Near the smallest R this rounding is noticeable.
   const Real rho = static_cast<double>(body.R - body.r);
   Real tolerance = 16 * std::numeric_limits<Real>::epsilon() * (rho + 1);
   const Vector3Of<Real>* highest = &body.points[0];
@@ -109,8 +110,8 @@ Real supportOf(const ReferenceBodyOf<Real>& body, const Vector3Of<Real>& n,
     }
     if (!worst) break;
     if (i > 1000) throw std::runtime_error("the reference support does not converge");
-    // Many points on nearly the same ball, seen from the one centre there is room for: near the smallest R
-    // the centre is only good to the square root of that room.
+    // Near the smallest R there is little room for the centre, and many points are almost on the same ball.
+    // There the centre is only accurate to the square root of that room.
     if (i % 50 == 49) tolerance *= 8;
     basis.push_back(*worst);
     centre = solveSmall(basis, n, rho, tolerance);
@@ -119,16 +120,16 @@ Real supportOf(const ReferenceBodyOf<Real>& body, const Vector3Of<Real>& n,
   return body.r + rho + n.dot(centre);
 }
 
-/// As referenceDistance(); ends where `gap` is at most `enough`, and looks for normals up to `reach` to the
-/// side of `towards`, of length 1.
+/// Like referenceDistance(), but ends if `gap` is at most `enough`, and searches normals up to `reach` to the
+/// side of `towards`, which has length 1.
 template <class Real>
 ReferenceDistanceOf<Real> distanceOf(const ReferenceBodyOf<Real>& a, const ReferenceBodyOf<Real>& b,
                                      const Vector3Of<Real>& towards, const Real& enough = 0,
                                      double reach = 1e3) {
   using std::sqrt;
   const Vector3Of<Real> z = towards.normalized();
-  // The normals with a wider gap than a trial's are a convex set on one side
-  // of the plane across its gradient.
+  // The normals with a wider gap than a trial's are a convex set on one side of the plane across its
+  // gradient.
   NormalPolygonOf<Real> left(z, reach);
   ReferenceDistanceOf<Real> best{-std::numeric_limits<Real>::infinity(), 0, z, {}};
   Real flattest = std::numeric_limits<Real>::infinity();

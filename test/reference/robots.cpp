@@ -1,5 +1,5 @@
-// Finds the robots' files, and warns of those that are not there. Loads them without a cache, with all pairs
-// but those of the SRDF or of adjacent links. Draws configurations at random.
+// Finds the robots' files, and warns about missing ones. Loads them without a cache, with all pairs except
+// those that the SRDF leaves out or those of adjacent links. Draws random configurations.
 #include "test/reference/robots.h"
 
 #include <algorithm>

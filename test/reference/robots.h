@@ -1,4 +1,4 @@
-// The robots that tests run on: the one in data/, and public ones beside the project where they are there.
+// The robots for tests: the one in data/, and public ones in a folder beside the project if they are there.
 #pragma once
 
 #include <memory>
@@ -17,7 +17,8 @@ struct TestRobot {
   std::vector<std::string> packagePath;
 };
 
-/// hrp2_style, and JVRC-1 and Panda where ../shared holds them; says so where it does not.
+/// hrp2_style, and JVRC-1 and Panda if ../shared contains them. Prints a message about those that are
+/// missing.
 std::vector<TestRobot> robots();
 
 struct LoadedRobot {
@@ -25,10 +26,11 @@ struct LoadedRobot {
   RobotGeometry geometry;
 };
 
-/// Without a cache, so that tests leave nothing behind.
+/// Loads a robot without a cache, so that tests leave no files behind.
 LoadedRobot load(const TestRobot& robot, GeometryOptions options = {});
 
-/// What CollisionConstraints needs: all pairs but those of the SRDF, or of adjacent links.
+/// The arguments of CollisionConstraints: all pairs except those that the SRDF leaves out, or those of
+/// adjacent links.
 struct Problem {
   std::shared_ptr<const RobotModel> model;
   std::shared_ptr<const Kinematics> kinematics;
@@ -41,12 +43,12 @@ Problem problem(const TestRobot& robot, BaseMotion base = BaseMotion::fixed);
 Body smoothBody(int link, const std::string& name, const StpBv::Ptr& volume,
                 const Eigen::Isometry3d& pose = Eigen::Isometry3d::Identity());
 
-/// One body of a robot and one obstacle, a single row.
+/// Constraints of one body of a robot and one obstacle: a single row.
 std::unique_ptr<CollisionConstraints> singleRow(std::shared_ptr<const Kinematics> kinematics,
                                                 const Body& body, const fcl::CollisionObjectd& obstacle,
                                                 ConstraintOptions options = {});
 
-/// Within the limits and 1 rad or m around zero.
+/// Random, within the limits and within 1 rad or m of zero.
 Eigen::VectorXd randomConfiguration(const Kinematics& kinematics, Random& random);
 Eigen::VectorXd randomDirection(Eigen::Index size, Random& random);
 

@@ -1,6 +1,8 @@
-// 1. A shape's furthest point comes from its numbers or its vertices. 2. Apart: the gap along a normal says
-// which half of the normals can be better; the other half is cut off until none are left. 3. Overlapping: a
-// Fibonacci spiral of normals, the best polished by random steps that shrink.
+// 1. A shape's furthest point comes from its numbers or its vertices.
+// 2. Cores apart: the gap along a normal tells in which half of the normals better ones are. The other half
+// is cut off until no normals are left.
+// 3. Cores overlapping: a Fibonacci spiral of normals; the best normal is refined by random steps that
+// shrink.
 #include "test/reference/shape_reference.h"
 
 #include <cmath>
@@ -37,13 +39,14 @@ Vector3L furthest(const TestShape& test, const Vector3L& d) {
   return best->cast<long double>();
 }
 
-/// One normal tried: the gap of the cores along it, and the difference of the points that tell it.
+/// A normal that was tried: the gap of the cores along it, and the difference of the points that determine
+/// it.
 struct Trial {
   Vector3L n, difference;
   long double gap;
 };
 
-/// The widest gap by halving what normals are left, in the gnomonic plane of the first one.
+/// The widest gap, by halving the remaining normals in the gnomonic plane of the first one.
 template <typename Look>
 ReferenceAnswer widestGap(const Look& look, long double margins, const Vector3L& towards) {
   Trial x = look(towards.normalized());
@@ -54,13 +57,13 @@ ReferenceAnswer widestGap(const Look& look, long double margins, const Vector3L&
     if (!left.cut(x.gap > 0 ? Vector3L(x.difference - x.difference.dot(x.n) * x.n) : x.difference)) break;
     x = look(left.centre().normalized());
     if (x.gap > best.gap) best = x;
-    // What is left can raise the gap by no more than its width times the farthest lever.
+    // The remaining normals can increase the gap by at most their width times the farthest lever.
     if (left.size() * x.difference.norm() < 1e-16L * left.centre().squaredNorm()) break;
   }
   return {best.gap - margins, best.n, !(best.gap > 0)};
 }
 
-/// The widest gap over a Fibonacci spiral of normals, polished by shrinking random steps.
+/// The widest gap over a Fibonacci spiral of normals, refined by random steps that shrink.
 template <typename Gap>
 long double widestOver(const Gap& gap, int count) {
   long double best = -std::numeric_limits<long double>::infinity();

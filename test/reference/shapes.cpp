@@ -1,5 +1,5 @@
-// Boxes, prisms, geodesic spheres by splitting an icosahedron, and random clouds. Random numbers come from a
-// Mersenne twister's bits alone. Rotations and poses to move bodies by.
+// Boxes, prisms, geodesic spheres by splitting an icosahedron, and random clouds. Random numbers come only
+// from the bits of a Mersenne twister. Also rotations and poses for moving bodies.
 #include "test/reference/shapes.h"
 
 #include <array>

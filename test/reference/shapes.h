@@ -1,4 +1,4 @@
-// Point clouds and poses that every test room builds its bodies from. Metres, centred on the origin.
+// Point clouds and poses from which all tests build their bodies. In metres, centred on the origin.
 #pragma once
 
 #include <Eigen/Core>
@@ -27,10 +27,10 @@ Cloud cylinder(double radius, double length, int sides = 32);
 /// 12, 42, 162, 642, 2562, ... points.
 Cloud geodesicSphere(double radius, int subdivisions);
 
-/// `count` points, uniform in a box with these half sides; the inner ones drop out when a volume is built.
+/// `count` points, uniform in a box with these half sides. The inner ones are dropped when a volume is built.
 Cloud randomHull(int count, const Eigen::Vector3d& half, std::uint64_t seed);
 
-/// Random numbers that are the same on every platform: the standard leaves its distributions to the library.
+/// Random numbers that are the same on every platform, unlike those of the standard library's distributions.
 class Random {
  public:
   explicit Random(std::uint64_t seed) : engine_(seed) {}
@@ -46,19 +46,19 @@ class Random {
   std::mt19937_64 engine_;
 };
 
-/// The rotation by the smallest angle that takes one direction to another, which is not its opposite.
-/// Compiled once: Eigen's `Quaterniond::FromTwoVectors` brings a singular value decomposition, ten seconds of
-/// compiling, into each file that names it.
+/// The rotation by the smallest angle that takes one direction to another, which must not be opposite. It is
+/// compiled once, because Eigen's `Quaterniond::FromTwoVectors` includes a singular value decomposition,
+/// which takes ten seconds of compiling in each file that uses it.
 Eigen::Matrix3d rotationBetween(const Eigen::Vector3d& from, const Eigen::Vector3d& to);
 
 /// A pose from its rotation and translation.
 Eigen::Isometry3d pose(const Eigen::Matrix3d& rotation, const Eigen::Vector3d& translation);
 
-/// A pose without a turn.
+/// A pose without a rotation.
 Eigen::Isometry3d at(double x, double y, double z);
 
-/// A body's pose after a small step: a shift along axis 0, 1 or 2 of the world, or with 3, 4 or 5 a turn
-/// about it through the body's origin.
+/// A body's pose after a small step: a translation along axis 0, 1 or 2 of the world, or with 3, 4 or 5 a
+/// rotation about that axis through the body's origin.
 Eigen::Isometry3d moved(const Eigen::Isometry3d& pose, int component, double step);
 
 }  // namespace fcl_stpbv::test

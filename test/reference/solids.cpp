@@ -1,5 +1,5 @@
-// Boxes and the L are prisms over polygons, torus and bowl rings of vertices. finer() cuts at the middles of
-// sides. A point of a surface is drawn by the triangles' areas, then uniform within the triangle.
+// Boxes and the L are prisms over polygons; torus and bowl are rings of vertices. finer() cuts at the middles
+// of sides. A random point of a surface is in a triangle chosen by area, and uniform within it.
 #include "test/reference/solids.h"
 
 #include <Eigen/Geometry>
@@ -19,7 +19,7 @@ void addQuad(TriangleMesh& mesh, int a, int b, int c, int d) {
   mesh.triangles.push_back({a, c, d});
 }
 
-// A prism over a polygon without convexity, given by its triangles; corners
+// A prism over a polygon that need not be convex. The polygon is given by its triangles, with corners
 // counter-clockwise seen from above.
 TriangleMesh prism(const std::vector<Eigen::Vector2d>& ring, const std::vector<std::array<int, 3>>& floor,
                    double height) {

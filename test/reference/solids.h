@@ -1,4 +1,4 @@
-// Triangle meshes that are not convex, closed ones and such as robots come with. Metres.
+// Triangle meshes that are not convex: closed ones, and open ones as robots have them. In metres.
 #pragma once
 
 #include <vector>
@@ -14,15 +14,15 @@ TriangleMesh boxMesh(const Eigen::Vector3d& low, const Eigen::Vector3d& high);
 TriangleMesh lShape();
 /// A ring about z.
 TriangleMesh torusMesh(double radius, double tube, int around, int across);
-/// Half a sphere without a lid: it encloses nothing.
+/// Half a sphere without a lid, which encloses nothing.
 TriangleMesh bowl(double radius, int rings);
-/// All in one, vertices not shared.
+/// All meshes in one, without shared vertices.
 TriangleMesh together(const std::vector<TriangleMesh>& meshes);
 /// The same faces turned inside out.
 TriangleMesh turned(TriangleMesh mesh);
-/// Every triangle cut in four, `times` over.
+/// The mesh with every triangle cut in four, `times` times.
 TriangleMesh finer(TriangleMesh mesh, int times = 1);
-/// All vertices moved by up to `size` along each axis.
+/// The mesh with all vertices moved by up to `size` along each axis.
 TriangleMesh shaken(TriangleMesh mesh, double size, Random& random);
 
 /// A point of the surface, uniform by area over any number of calls.

@@ -1,4 +1,5 @@
-// See source_folder.h. The only file compiled with the path, so that the others are the same in every folder.
+// See source_folder.h. This is the only file compiled with the path, so the object files of all others are
+// the same in every folder.
 #include "test/reference/source_folder.h"
 
 namespace fcl_stpbv::test {

@@ -1,5 +1,5 @@
-// Two triangles: 0 where an edge of one goes through the other, else the least of all corners from the other
-// triangle and all edges from all edges.
+// The distance of two triangles: 0 if an edge of one goes through the other, otherwise the least distance of
+// all corners from the other triangle and of all edges from all edges.
 #include "test/reference/triangles.h"
 
 #include <algorithm>
@@ -16,7 +16,8 @@ long double toSegment(const PointL& p, const PointL& a, const PointL& b) {
   return (a + t * d - p).norm();
 }
 
-/// The lines' nearest points where both lie inside the segments; else an end of one is nearest to the other.
+/// Distance of two segments: between the lines' nearest points if both lie inside the segments, otherwise
+/// from an end of one.
 long double ofSegments(const PointL& a, const PointL& b, const PointL& c, const PointL& d) {
   long double best =
       std::min({toSegment(a, c, d), toSegment(b, c, d), toSegment(c, a, b), toSegment(d, a, b)});

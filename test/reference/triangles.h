@@ -12,14 +12,14 @@ namespace fcl_stpbv::test {
 using PointL = Eigen::Matrix<long double, 3, 1>;
 using TriangleL = std::array<PointL, 3>;
 
-/// Of a point from a triangle (m).
+/// Distance of a point from a triangle (m).
 long double referenceDistance(const PointL& p, const TriangleL& t);
-/// Of two triangles, 0 where they meet (m).
+/// Distance of two triangles, 0 if they meet (m).
 long double referenceDistance(const TriangleL& a, const TriangleL& b);
 
 TriangleL placed(const Eigen::Isometry3d& pose, const Eigen::Vector3d& a, const Eigen::Vector3d& b,
                  const Eigen::Vector3d& c);
-/// The twelve of a box around its own origin.
+/// The twelve triangles of a box around its own origin.
 std::vector<TriangleL> boxTriangles(const Eigen::Isometry3d& pose, const Eigen::Vector3d& sides);
 
 }  // namespace fcl_stpbv::test

@@ -1,5 +1,5 @@
-// Volumes that file formats must keep, and which of them SCH files can hold. Folders that remove themselves.
-// Sample files beside the project.
+// Volumes for tests of file formats, and those that SCH files can represent. Folders that are removed
+// automatically. Sample files beside the project.
 #include "test/reference/volume_files.h"
 
 #include <algorithm>

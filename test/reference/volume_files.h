@@ -1,4 +1,4 @@
-// What the tests of file formats share: volumes of every kind, and texts damaged in every way.
+// Shared by the tests of file formats: volumes of every kind, and texts with all kinds of damage.
 #pragma once
 
 #include <string>
@@ -13,13 +13,13 @@ struct NamedVolume {
   StpBv::Ptr volume;
 };
 
-/// From one point to thousands, flat, round, with k-gon faces and without.
+/// Volumes with one point to thousands, flat or round, with and without k-gon faces.
 std::vector<NamedVolume> volumesOfEveryKind();
 
-/// Those with a face and no edge of more than half a turn.
+/// The volumes that have a face and no edge of more than half a turn.
 std::vector<NamedVolume> volumesForSch();
 
-/// Calls `load` with the text; gives the message of the Error it throws, or "" if it throws none.
+/// Calls `load` with the text. @returns the message of the Error that it throws, or "" if it throws none.
 template <class Load>
 std::string refusal(Load load, const std::string& text) {
   try {
@@ -30,10 +30,10 @@ std::string refusal(Load load, const std::string& text) {
   return "";
 }
 
-/// The folder of sample files beside the project, "" where it is missing.
+/// The folder of sample files beside the project, "" if it is missing.
 std::string sharedFolder(const std::string& name);
 
-/// A new empty folder that is removed with all it holds.
+/// A new empty folder that is removed at the end with its contents.
 class TemporaryFolder {
  public:
   TemporaryFolder();

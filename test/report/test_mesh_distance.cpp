@@ -1,5 +1,5 @@
-// The distance of meshes and primitives beside all pairs of triangles in long
-// double, and what lies inside what.
+// The distance of meshes and primitives, compared with all pairs of triangles in long double, and containment
+// of one body in another.
 #include <fcl/geometry/shape/box.h>
 #include <fcl/geometry/shape/sphere.h>
 
@@ -23,7 +23,7 @@ namespace {
 using V = Eigen::Matrix<long double, 3, 1>;
 using T = std::array<V, 3>;
 
-// Distance of a point and a triangle: over its inside where the foot lies there, else over its sides.
+// Distance of a point and a triangle: to its plane if the foot lies inside, otherwise to its sides.
 long double pointSegment(const V& p, const V& a, const V& b) {
   const V u = b - a;
   const long double l = u.squaredNorm();
@@ -43,7 +43,8 @@ long double pointTriangle(const V& p, const T& t) {
   return inside ? std::min(least, std::abs((p - t[0]).dot(n)) / n.norm()) : least;
 }
 
-// Both segments' ends against the other, and where the common perpendicular meets both.
+// Distance of two segments: the ends of both against the other one, and the points where the common
+// perpendicular meets both.
 long double segmentSegment(const V& a, const V& b, const V& c, const V& d) {
   long double least =
       std::min({pointSegment(a, c, d), pointSegment(b, c, d), pointSegment(c, a, b), pointSegment(d, a, b)});
@@ -55,7 +56,7 @@ long double segmentSegment(const V& a, const V& b, const V& c, const V& d) {
   return least;
 }
 
-// An edge that goes through the other triangle's inside.
+// Whether an edge goes through the inside of the other triangle.
 bool crosses(const V& a, const V& b, const T& t) {
   const V n = (t[1] - t[0]).cross(t[2] - t[0]);
   const long double da = (a - t[0]).dot(n), db = (b - t[0]).dot(n);
@@ -118,7 +119,7 @@ Body meshBody(const TriangleMesh& mesh, const std::string& file) {
   return body;
 }
 
-// A grid of `around` times `along` points, closed in both directions like a tyre; `at` places them.
+// A grid of `around` times `along` points, closed in both directions like a tyre. `at` gives their positions.
 TriangleMesh grid(int around, int along, const std::function<Vector3d(double, double)>& at) {
   constexpr double kTurn = 6.283185307179586;
   TriangleMesh mesh;
@@ -184,7 +185,7 @@ TEST_CASE("the distance of two meshes is that of their nearest triangles") {
                                                : dented(random),
                               folder / "b.obj");
     const ExactBody a(one), b(two);
-    const TriangleMesh meshA = loadMesh(one.file), meshB = loadMesh(two.file);  // as rounded in the file
+    const TriangleMesh meshA = loadMesh(one.file), meshB = loadMesh(two.file);  // with the file's rounding
     for (int k = 0; k < 3; ++k) {
       const Eigen::Isometry3d poseA = pose(random.rotation(), random.uniform(0, 1) * random.direction());
       const Eigen::Isometry3d poseB =
@@ -195,7 +196,7 @@ TEST_CASE("the distance of two meshes is that of their nearest triangles") {
       if (truth == 0) {
         CHECK(meet(d));
         ++meeting;
-      } else if (!meet(d)) {  // containment is the next test's
+      } else if (!meet(d)) {  // the next test is about containment
         CHECK(d.upper - d.lower <= 1.01e-7);
         CHECK(d.lower <= truth + 1e-13);  // rounding of coordinates of 1 m in either
         CHECK(d.upper >= truth - 1e-13);
@@ -225,7 +226,7 @@ TEST_CASE(
     CHECK(hole.lower > 0.03);
     CHECK(hole.upper < 0.05);
     CHECK(outer.volume() ==
-          Approx(2 * 9.8696044 * 0.1 * 0.04 * 0.04).epsilon(0.08));  // less for its flat sides
+          Approx(2 * 9.8696044 * 0.1 * 0.04 * 0.04).epsilon(0.08));  // less because of its flat sides
   }
 }
 
@@ -247,7 +248,8 @@ TEST_CASE("one part of many inside is enough, and an open mesh is told from a cl
   CHECK(meet(meshDistance(ExactBody(parts), shifted(0), ExactBody(ring), shifted(0))));
   CHECK_FALSE(ExactBody(holed).closed());
   CHECK(std::isnan(ExactBody(holed).volume()));
-  CHECK(meet(meshDistance(ExactBody(parts), shifted(0), ExactBody(holed), shifted(0))));  // all but closed
+  // Meshes that are not closed.
+  CHECK(meet(meshDistance(ExactBody(parts), shifted(0), ExactBody(holed), shifted(0))));
 }
 
 TEST_CASE("primitives count as they are, solid, and points without triangles as their hull") {
@@ -260,9 +262,9 @@ TEST_CASE("primitives count as they are, solid, and points without triangles as 
   put(folder / "points-ch.txt", "3\n4\n0 0 0\n0.1 0 0\n0 0.1 0\n0 0 0.1\n");
   points.file = folder / "points-ch.txt";
   const ExactBody tyreBody(ring), box(cube), ballBody(sphere), hull(points);
-  // The tyre's outermost corners are at 0.14 m exactly.
+  // The tyre's outermost corners are exactly at 0.14 m.
   const MeshDistance beside = meshDistance(tyreBody, shifted(0), box, shifted(0.5));
-  CHECK(beside.lower <= 0.26 + 1e-8);  // single precision in the file
+  CHECK(beside.lower <= 0.26 + 1e-8);  // the file has single precision
   CHECK(beside.upper >= 0.26 - 1e-8);
   CHECK(beside.upper - beside.lower <= 1.01e-7);
   CHECK(meet(meshDistance(ballBody, shifted(0.1), tyreBody, shifted(0))));

@@ -1,4 +1,4 @@
-// What the HTML page draws of a body lies in the body, reaches its surface to the tolerance, and is closed.
+// A body's outline in the HTML page lies in the body, reaches its surface to the tolerance, and is closed.
 #include <fcl/geometry/shape/box.h>
 #include <fcl/geometry/shape/capsule.h>
 #include <fcl/geometry/shape/cylinder.h>
@@ -31,7 +31,7 @@ Vector3d normalOf(const TriangleMesh& mesh, const std::array<int, 3>& t) {
   return (at(1) - at(0)).cross(at(2) - at(0)).normalized();
 }
 
-// Every edge is run once in each direction.
+// Every edge must be traversed once in each direction.
 void checkClosed(const TriangleMesh& mesh) {
   std::map<std::pair<int, int>, int> runs;
   for (const auto& t : mesh.triangles)
@@ -43,7 +43,7 @@ void checkClosed(const TriangleMesh& mesh) {
   }
 }
 
-// `height` is the body's support function, `depth` how far a point is inside it (m), both by formula.
+// `height` is the body's support function, and `depth` the depth of a point inside it (m), both by formula.
 template <class Height, class Depth>
 void checkOutline(const fcl::CollisionGeometryd& geometry, Height height, Depth depth) {
   const TriangleMesh mesh = outline(geometry, kTolerance, kMost);

@@ -1,4 +1,4 @@
-// Tables in texts: their columns hold whatever script the names are in.
+// Tables in texts: the columns are aligned for names in any script.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <string>
@@ -13,7 +13,7 @@ namespace {
 
 constexpr const char* kHand = "\u53f3\u8155";             // two wide letters
 constexpr const char* kBody = "Ko\u0308rper";             // one letter is two characters
-constexpr const char* kArm = "\u0440\u0443\u043a\u0430";  // two bytes a letter
+constexpr const char* kArm = "\u0440\u0443\u043a\u0430";  // two bytes per letter
 
 }  // namespace
 

@@ -1,4 +1,4 @@
-// What is said of way points whose angles were wrapped: the way that is looked at is the long one.
+// The warning about way points whose angles were wrapped: the checked motion is the long way.
 #include <catch2/catch.hpp>
 #include <memory>
 
@@ -40,7 +40,7 @@ TEST_CASE("a floating joint's rotation vector that was kept within half a turn i
   const std::string said = saidOf("floating", from, to);
   CHECK(said.find("way.csv: way point 2 (from 0): 'j' turns by 6.2 rad") == 0);
   CHECK(said.find("end at 0, 1.90991") != std::string::npos);  // 2 pi - 3.1 along the axis
-  to.tail(3) << 3, 0, 0;  // as long, but about another axis: nearer than a whole turn on
+  to.tail(3) << 3, 0, 0;  // as long, but about another axis: nearer than after another whole turn
   CHECK(saidOf("floating", from, to).empty());
   to.tail(3).setZero();
   CHECK(saidOf("floating", from, to).empty());

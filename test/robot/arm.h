@@ -1,4 +1,4 @@
-// A small robot with its bodies, as searches take them.
+// A small robot with its bodies, for the searches.
 #pragma once
 
 #include <memory>

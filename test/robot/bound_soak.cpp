@@ -1,5 +1,5 @@
-// bound_soak BOXES ROBOT.urdf...: the bound of proofs on a robot of primitives and on these, eight samples a
-// box; ends with 1 if a distance is below its bound.
+// bound_soak BOXES ROBOT.urdf...: tests the bound of proofs on a robot of primitives and on these robots,
+// with eight samples per box. Ends with status 1 if a distance is below its bound.
 #include <cstdio>
 #include <exception>
 #include <limits>

@@ -1,6 +1,7 @@
-// 1. A pair of links, or a link and an obstacle, is drawn, and a box of joint values. 2. The library bounds
-// the distance over the box. 3. The distance is asked in the box's middle, in corners and in between; one
-// below the bound is a violation.
+// 1. Draw a pair of links, or a link and an obstacle, and a box of joint values.
+// 2. The library bounds the distance over the box.
+// 3. Compute the distance at the box's middle, at corners and in between. A distance below the bound is a
+// violation.
 #include "test/robot/bound_trials.h"
 
 #include <fcl/geometry/shape/box.h>
@@ -92,7 +93,7 @@ BoundTrials tryBounds(const ProofScene& scene, const std::vector<LinkPair>& pair
     const std::vector<int>& coordinates = search.coordinates();
     const auto size = static_cast<Eigen::Index>(coordinates.size());
     JointBox box{Eigen::VectorXd(size), Eigen::VectorXd(size)};
-    const double scale = std::pow(10, random.uniform(-3, 0));  // of the ranges
+    const double scale = std::pow(10, random.uniform(-3, 0));  // scale of the ranges
     for (Eigen::Index k = 0; k < size; ++k) {
       const int c = coordinates[static_cast<std::size_t>(k)];
       const double low = kinematics.lower()[c], range = kinematics.upper()[c] - low;
@@ -104,7 +105,7 @@ BoundTrials tryBounds(const ProofScene& scene, const std::vector<LinkPair>& pair
     Eigen::VectorXd q = kinematics.neutral();
     for (int s = 0; s < kSamples; ++s) {
       for (Eigen::Index k = 0; k < size; ++k) {
-        // The middle first, then half of them corners.
+        // First the middle, then half of the samples at corners.
         const double part = s == 0 ? 0.5 : s % 2 ? random.below(2) : random.uniform(0, 1);
         q[coordinates[static_cast<std::size_t>(k)]] = box.lower[k] + part * (box.upper[k] - box.lower[k]);
       }

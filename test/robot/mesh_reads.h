@@ -1,11 +1,12 @@
-// Tells whether a mesh was read.
+// Shows whether a mesh was read.
 #pragma once
 
 #include <sys/resource.h>
 
 namespace fcl_stpbv::test {
 
-/// Pages that child processes have touched so far: meshes are read in children, so without a page none was.
+/// Number of pages that child processes have touched so far. Meshes are read in children, so if it does not
+/// grow, none was read.
 inline long pagesOfChildren() {
   rusage usage{};
   ::getrusage(RUSAGE_CHILDREN, &usage);

@@ -1,6 +1,6 @@
-// Left and right limb of the HRP-2-style robot in mirrored poses, the posture of every symmetric motion: how
-// often FCL is wrong on the polyhedra, and whether this library is exact on the volumes over them, also with
-// arguments swapped. mirrored_limbs [QUERIES] [SEED]
+// Left and right limb of the HRP-2-style robot in mirrored poses, as in every symmetric motion: counts how
+// often FCL is wrong on the polyhedra, and checks that this library is exact on the volumes around them, also
+// with swapped arguments. mirrored_limbs [QUERIES] [SEED]
 #include <fcl/narrowphase/distance.h>
 
 #include <cstdio>
@@ -49,13 +49,13 @@ int main(int argc, char** argv) {
     const Eigen::Isometry3d left = pose(rotation, t), right = pose(across * rotation * across, across * t);
 
     const Distance d = distance(*limb.left, left, *limb.right, right);
-    if (d.status == DistanceStatus::local) continue;  // overlapping by more than the margins
+    if (d.status == DistanceStatus::local) continue;  // they overlap by more than the margins
     ++apart;
     widest = std::max(widest, d.upper - d.lower);
     if (d.status != DistanceStatus::exact || !(d.upper - d.lower <= 1e-13)) ++notExact;
     const Distance back = distance(*limb.right, right, *limb.left, left);
-    // Coordinates of about 1 m, rounded a dozen times; a normal turns by that over the
-    // distance of the cores (docs/theory.md, 6).
+    // Coordinates of about 1 m, rounded a dozen times. The normal's error is that divided by the distance of
+    // the cores (docs/theory.md, 6).
     constexpr double kRounded = 1e-14, kMargins = 2 * 0.01;
     if (!(std::abs(back.distance - d.distance) <= kRounded) ||
         !((back.normal + d.normal).norm() <= kRounded / (d.distance + kMargins)))

@@ -1,4 +1,4 @@
-// Which links count as adjacent or rigidly joined, on a skeleton most of whose links have no body.
+// Which links count as adjacent or rigidly joined, on a skeleton in which most links have no body.
 #include <catch2/catch.hpp>
 
 #include "fcl_stpbv/robot/adjacency.h"
@@ -16,8 +16,8 @@ const std::string kBall = "<sphere radius=\"0.05\"/>";
 
 std::string at(const std::string& xyz) { return "<origin xyz=\"" + xyz + "\"/>"; }
 
-// Pelvis, thighs, feet, head and hands have bodies. A hip is three joints with one origin, the head is
-// carried by a spine of three joints with different ones, a foot hangs on a knee and an ankle 0.4 m below it.
+// Pelvis, thighs, feet, head and hands have bodies. A hip is three joints with one origin. A spine of three
+// joints with different origins carries the head. A foot is attached to a knee and an ankle 0.4 m below it.
 std::string skeleton() {
   std::string text =
       link("pelvis", kBall) + link("imu", kBall) + joint("imu_fix", "fixed", "pelvis", "imu", at("0 0 0.3"));
@@ -64,7 +64,7 @@ TEST_CASE("links without bodies are bridged where their joints' origins coincide
   CHECK(scene.of("l_thigh", "pelvis") == Joining::adjacent);
   CHECK(scene.of("l_thigh", "l_foot") == Joining::separate);  // knee and ankle are 0.4 m apart
   CHECK(scene.of("pelvis", "head") == Joining::separate);     // a spine bends
-  CHECK(scene.of("l_hand", "r_hand") == Joining::separate);   // two arms of one chest without a body
+  CHECK(scene.of("l_hand", "r_hand") == Joining::separate);   // two arms at one chest that has no body
   CHECK(scene.of("head", "l_hand") == Joining::separate);
   CHECK(scene.of("l_thigh", "r_thigh") == Joining::separate);
   CHECK(scene.of("pelvis", "imu") == Joining::rigid);
@@ -104,7 +104,7 @@ TEST_CASE(
   CHECK(chain(link("x") + link("y", kBall) + joint("j", "revolute", "a", "x") +
               joint("f", "fixed", "x", "y", far) + joint("k", "revolute", "x", "b"))
             .of("a", "b") == Joining::separate);
-  // Origins that coincide across a fixed joint there and back.
+  // Origins that coincide although a fixed joint and a joint's offset are between them.
   CHECK(chain(link("x") + link("y") + joint("j", "revolute", "a", "x", far) +
               joint("f", "fixed", "x", "y", at("0 0 0.1")) + joint("k", "revolute", "y", "b", at("0 0 -0.1")))
             .of("a", "b") == Joining::adjacent);
@@ -142,7 +142,7 @@ TEST_CASE("a link that a shape was left out of has a body, whatever is wrong wit
     CHECK(between("<colision>" + box + "</colision>", visual) == Joining::separate);
     CHECK(between("<shape>" + box + "</shape>", visual) == Joining::separate);
   }
-  // What is wrong with shapes that are not used is no matter.
+  // Faults of shapes that are not used do not matter.
   CHECK(between("<visual><geometry><sphere radius=\"0\"/></geometry></visual>", false) == Joining::adjacent);
 }
 
@@ -172,5 +172,5 @@ TEST_CASE("a skeleton of few bodies has pairs to check, and its rigid ones are s
   CHECK(checkedPairs(*scene.geometry, list).size() == 33);
   CHECK(selfPairs(*scene.model, *scene.geometry, nullptr).size() == 33);
   for (const Srdf::Pair& pair : toSrdf(*scene.model, list))
-    if (pair.link1 == "imu" && pair.link2 == "pelvis") CHECK(pair.reason == "Never");  // 0.2 m apart for good
+    if (pair.link1 == "imu" && pair.link2 == "pelvis") CHECK(pair.reason == "Never");  // always 0.2 m apart
 }

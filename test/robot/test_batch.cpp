@@ -1,4 +1,4 @@
-// Batches give what one configuration after the other gives, whatever the number of threads.
+// Batches give the same results as single configurations, for any number of threads.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
@@ -72,7 +72,7 @@ TEST_CASE("a batch's distances, Jacobians and verdicts are the same for one, two
       alone.evaluate(q.col(i), single);
       for (Eigen::Index row = 0; row < single.size(); ++row)
         if (alone.answer(static_cast<int>(row)).status == DistanceStatus::exact)
-          CHECK(d(row, i) == Approx(single[row]).margin(1e-13));  // the starts differ
+          CHECK(d(row, i) == Approx(single[row]).margin(1e-13));  // because the starts differ
       CHECK(hit[i] == aloneChecker.collides(q.col(i)));
     }
   }

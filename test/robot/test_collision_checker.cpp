@@ -1,5 +1,5 @@
-// Verdicts of CollisionChecker against the exact distances of CollisionConstraints, and configurations that
-// nothing may call clear.
+// Verdicts of CollisionChecker, compared with the exact distances of CollisionConstraints; also
+// configurations that must not be called clear.
 #include <fcl/geometry/bvh/BVH_model.h>
 #include <fcl/geometry/geometric_shape_to_BVH_model.h>
 #include <fcl/geometry/shape/box.h>
@@ -27,7 +27,7 @@ namespace {
 constexpr double kLowest = std::numeric_limits<double>::lowest();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// A robot, and things of every kind around it.
+/// A robot, with obstacles of every kind around it.
 struct Scene {
   Problem robot;
   std::vector<Obstacle> obstacles;
@@ -36,7 +36,7 @@ struct Scene {
 Scene sceneOf(const TestRobot& robot, BaseMotion base, bool obstacles) {
   Scene scene{problem(robot, base), {}};
   if (!obstacles) return scene;
-  // Rotations went through single precision.
+  // The rotations have the rounding of single precision.
   const Eigen::Matrix3d turn = Random(3).rotation().cast<float>().cast<double>();
   const auto add = [&](std::shared_ptr<fcl::CollisionGeometryd> geometry, const Eigen::Vector3d& where) {
     const fcl::CollisionObjectd object(geometry, pose(turn, where));
@@ -55,7 +55,7 @@ Scene sceneOf(const TestRobot& robot, BaseMotion base, bool obstacles) {
   return scene;
 }
 
-/// The verdicts on one configuration beside the distances' certified bounds.
+/// Compares the verdicts on one configuration with the distances' certified bounds.
 class Judge {
  public:
   Judge(const Scene& scene, double margin)
@@ -68,7 +68,7 @@ class Judge {
   int hits() const { return hits_; }
   int clear() const { return clear_; }
 
-  /// The least distance at q.
+  /// Compares the verdicts at q. @returns the least distance.
   double look(const VectorXd& q) {
     rows_.evaluate(q, d_);
     std::vector<bool> isHit(static_cast<std::size_t>(rows_.rows()));
@@ -76,7 +76,7 @@ class Judge {
     bool surelyHit = false, surelyClear = true;
     for (int row = 0; row < rows_.rows(); ++row) {
       const DistanceAnswer answer = rows_.answer(row);
-      // What a pair's rounding is, doubled: the verdict's own bounds may differ by it from the answer's.
+      // Twice the rounding of a pair: the bounds of the verdict may differ from the answer's by that.
       const double rounding = 1e-12;
       const bool hit = isHit[static_cast<std::size_t>(row)];
       CAPTURE(row, rows_.name(row), d_[row], answer.lower, answer.upper, hit);
@@ -100,7 +100,7 @@ class Judge {
     return d_.minCoeff();
   }
 
-  /// Beside the least of all rows, where that is exact.
+  /// Compares minDistance() with the least of all rows, if that is exact.
   void lookAtLeast(const VectorXd& q) {
     const double least = checker_.minDistance(q);
     rows_.evaluate(q, d_);
@@ -128,7 +128,7 @@ class Judge {
   int hits_ = 0, clear_ = 0;
 };
 
-/// On the line between two configurations, one clear and one not: where it changes, to 40 halvings.
+/// A configuration on the line between a clear and a colliding one where the verdict changes, to 40 halvings.
 VectorXd nearContact(CollisionChecker& checker, VectorXd clear, VectorXd hit) {
   for (int i = 0; i < 40; ++i) {
     const VectorXd middle = 0.5 * (clear + hit);
@@ -176,7 +176,7 @@ TEST_CASE("next to contact, to the last bits of q, verdicts keep to the certifie
       const VectorXd q = nearContact(judge.checker(), hitA ? b : a, hitA ? a : b);
       for (const double step : {0.0, 1e-12, -1e-12, 1e-9, -1e-9, 1e-6, -1e-6}) {
         const double least = judge.look(q + step * (b - a));
-        CHECK(std::abs(least - margin) < 1e-4);  // next to contact it is
+        CHECK(std::abs(least - margin) < 1e-4);  // it is close to contact
         ++looked;
       }
     }
@@ -262,7 +262,7 @@ TEST_CASE("small steps search for few pairs, random configurations for those nea
   const CheckerWork small = walk(1e-3), large = walk(0.5);
   CAPTURE(per(small.near, small), per(small.searched, small), per(large.near, large),
           per(large.searched, large));
-  // Measured when it was written, and a tenth more.
+  // Measured when this was written, plus a tenth.
   CHECK(per(small.near, small) < 16.7);
   CHECK(per(small.searched, small) < 0.032);
   CHECK(per(large.near, large) < 8.7);
@@ -281,11 +281,11 @@ TEST_CASE("a body in the middle of a room's mesh, or in the box around a hull, i
   auto room = std::make_shared<fcl::BVHModel<fcl::OBBRSSd>>();
   fcl::generateBVHModel(*room, fcl::Boxd(6, 6, 6), Eigen::Isometry3d::Identity());
   room->computeLocalAABB();
-  // The box around this tetrahedron has its middle outside, sqrt(3) / 6 from the slanted face.
+  // The middle of this tetrahedron's box is outside of it, sqrt(3) / 6 from the slanted face.
   const std::vector<Eigen::Vector3d> corners{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   struct Case {
     std::shared_ptr<fcl::CollisionGeometryd> geometry;
-    double q, distance;  // of the ball, as far along (1, 1, 1)
+    double q, distance;  // of the ball, which is this far along (1, 1, 1)
   };
   for (const Case& c :
        {Case{room, 0, 2.9}, Case{detail::hullGeometry(corners), std::sqrt(0.75), std::sqrt(3.0) / 6 - 0.1}}) {
@@ -299,7 +299,7 @@ TEST_CASE("a body in the middle of a room's mesh, or in the box around a hull, i
       CHECK(checker.collides(q) == (off > 0));
     }
   }
-  // A centre that is in its hull still tells so without a search.
+  // A centre inside its hull still gives a verdict without a search.
   const std::vector<Obstacle> around{obstacleOf(
       fcl::CollisionObjectd(detail::hullGeometry(box(1, 1, 1)), Eigen::Isometry3d::Identity()), "hull")};
   CollisionChecker checker(kinematics, geometry, {{0, 0, true}}, around);

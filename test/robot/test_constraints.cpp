@@ -1,5 +1,5 @@
-// d(q) and J(q) of whole robots: against differences, across the influence
-// distance, with obstacles, without allocation.
+// d(q) and J(q) of whole robots: compared with differences, across the influence distance, with obstacles,
+// without allocation.
 #include <fcl/geometry/shape/sphere.h>
 
 #include <catch2/catch.hpp>
@@ -44,8 +44,8 @@ double worstError(CollisionConstraints& constraints, const Kinematics& kinematic
   return worst;
 }
 
-// Across a region boundary the second derivative jumps, by at most lever^2 / (r1 + r2) = 1 / 0.02 per m, and
-// a difference over a step sees a quarter of that times the step; levers here are up to about 1.5 m.
+// The second derivative jumps across a region boundary by at most lever^2 / (r1 + r2) = 1 / 0.02 per m. A
+// difference over a step is off by a quarter of that times the step. Levers here are up to about 1.5 m.
 constexpr double kDifference = 1e-6 / 4 * 2.25 / 0.02;
 
 }  // namespace
@@ -128,7 +128,7 @@ TEST_CASE("a smooth constraint takes the place of the pairs it replaces") {
   shoulder.replaces = {{"LARM_LINK2", "CHEST_LINK1"}};
   options.smooth = {shoulder};
   CollisionConstraints constraints(p.kinematics, p.geometry, p.pairs, options);
-  CHECK(constraints.rows() == static_cast<int>(p.pairs.size()));  // one left, one came
+  CHECK(constraints.rows() == static_cast<int>(p.pairs.size()));  // one row was removed and one added
   CHECK(constraints.name(constraints.rows() - 1) == "left shoulder");
   CHECK(constraints.answer(constraints.rows() - 1).status == DistanceStatus::invalid);
   CHECK(constraints.gradientRateBound(constraints.rows() - 1) == std::numeric_limits<double>::infinity());

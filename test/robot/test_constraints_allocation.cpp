@@ -29,7 +29,7 @@ TEST_CASE(
   RowRates rates = constraints.makeRates();
   CollisionConstraints::SparseHessian lower = constraints.makeHessian();
   Eigen::MatrixXd full(constraints.columns(), constraints.columns());
-  constraints.hessian(kinematics->neutral(), d.setOnes(), lower);  // makes room for those that follow
+  constraints.hessian(kinematics->neutral(), d.setOnes(), lower);  // makes room for the following calls
   DamperOptions options;
   options.all.influence = 0.3;
   VelocityDamper slow(constraints, options);

@@ -1,5 +1,5 @@
-// What evaluate(q, qd) says of every row, and the Hessians of rows and of a Lagrangian, against central
-// differences and each other.
+// The results of evaluate(q, qd) for every row, and the Hessians of rows and of a Lagrangian, compared with
+// central differences and with each other.
 #include <fcl/geometry/shape/box.h>
 #include <fcl/geometry/shape/capsule.h>
 #include <fcl/geometry/shape/cylinder.h>
@@ -18,9 +18,9 @@ namespace {
 
 constexpr double kStep = 1e-6;
 
-/// Everything of a row that moves, at one configuration.
+/// All moving values of a row at one configuration.
 struct Moving {
-  VectorXd speed, where;  // of the row; normal and both witness points
+  VectorXd speed, where;  // speed of the row; its normal and both witness points
 };
 Moving at(CollisionConstraints& constraints, const VectorXd& q, const VectorXd& qd, RowRates& rates,
           MatrixXd& jacobian) {
@@ -38,8 +38,8 @@ struct Found {
   int compared = 0, boundaries = 0;
 };
 
-// Rows whose one-sided differences tell of a region boundary in between are left out and counted, and so are
-// deep answers, which may jump.
+// Rows whose one-sided differences show a region boundary in between are left out and counted. So are deep
+// answers, which may jump.
 Found compare(CollisionConstraints& constraints, const Kinematics& kinematics, int count) {
   Random random(23);
   Found found;
@@ -79,11 +79,11 @@ Found compare(CollisionConstraints& constraints, const Kinematics& kinematics, i
   return found;
 }
 
-// A central difference is off by step^2 / 6 times a third derivative, below 1e5 here where no region boundary
-// is in the step, and by rounding over the step: 1e-14 of the normal, and up to R times 1e-15 of a witness
-// point on a face.
+// A central difference has two errors. One is step^2 / 6 times a third derivative, which is below 1e5 here if
+// no region boundary is in the step. The other is rounding divided by the step: 1e-14 for the normal, and up
+// to R times 1e-15 for a witness point on a face.
 constexpr double kDifference = 1e-7;
-// J times qd against the same sum by bodies: a hundred products of size 1.
+// J times qd compared with the same sum by bodies: a hundred products of size 1.
 constexpr double kRounding = 1e-13;
 
 void check(CollisionConstraints& constraints, const Kinematics& kinematics, int count) {
@@ -96,7 +96,7 @@ void check(CollisionConstraints& constraints, const Kinematics& kinematics, int 
   CHECK(found.boundaries < found.compared / 50);
 }
 
-/// A floating robot among plain shapes, with the bend and a constraint of its own.
+/// A floating robot among plain shapes, with the bend and a smooth constraint.
 CollisionConstraints crowded(const Problem& p) {
   const std::vector<std::shared_ptr<fcl::CollisionGeometryd>> shapes{
       std::make_shared<fcl::Boxd>(0.3, 0.2, 0.4), std::make_shared<fcl::Cylinderd>(0.1, 0.5),
@@ -154,7 +154,8 @@ TEST_CASE("without a velocity an answer does not move") {
   CHECK(constraints.answer(0).normalVelocity.norm() + constraints.answer(0).pointVelocity[0].norm() > 0);
   constraints.evaluate(q, d);
   CHECK(constraints.answer(0).normalVelocity.isZero(0));
-  // Nor after a product with a direction, or where nothing is known; then nothing bounds its gradient.
+  // The rates are also still after a product with a direction, or if nothing is known. Then the gradient has
+  // no bound.
   const VectorXd none = VectorXd::Constant(q.size(), std::nan(""));
   VectorXd product(q.size());
   const auto isStill = [&] {
@@ -197,15 +198,15 @@ TEST_CASE("a row's Hessian has the products with vectors as columns, and qd' H q
       constraints.hessian(q, row, h);
       constraints.hessianVector(q, VectorXd::Unit(constraints.rows(), row), v, product);
       CHECK((h - h.transpose()).isZero(0));
-      // Sums of some hundred products; levers over radii of curvature make entries of up to 1e3.
+      // Sums of some hundred products. Levers divided by radii of curvature give entries of up to 1e3.
       CHECK((h * v - product).norm() < 1e-12 * (1 + h.norm()));
       CHECK(std::abs(v.dot(h * v) - rates.drift[row]) < 1e-12 * (1 + h.norm()));
       closed += h.norm() > 0;
     }
   }
   CHECK(closed > 20);
-  // The constraint of one's own, by differences: 2 q2 q5^2 has second derivatives of size 1, the gradient's
-  // rounding over the step is 1e-10.
+  // The smooth constraint, by differences: 2 q2 q5^2 has second derivatives of size 1. The gradient's
+  // rounding divided by the step is 1e-10.
   const VectorXd q = randomConfiguration(*p.kinematics, random);
   constraints.hessian(q, constraints.rows() - 1, h);
   CHECK(std::abs(h(2, 5) - 2 * q[5]) < 1e-8);
@@ -214,7 +215,7 @@ TEST_CASE("a row's Hessian has the products with vectors as columns, and qd' H q
 }
 
 TEST_CASE("Hessians and gradient bounds hold where the joints of one coordinate carry and part two bodies") {
-  // As in a finger: J carries both bodies, K between them and L after it follow it.
+  // A finger: J carries both bodies; K between them and L after it follow J.
   const char* const finger = R"(<robot name="finger"><link name="palm"/>
     <link name="a"><collision><geometry><box size="0.2 0.1 0.1"/></geometry></collision></link><link name="b"/>
     <link name="c"><collision><origin xyz="0.1 0.02 0.3"/><geometry><box size="0.1 0.2 0.1"/></geometry></collision></link>
@@ -249,10 +250,10 @@ TEST_CASE("Hessians and gradient bounds hold where the joints of one coordinate 
     constraints.evaluate(q + kStep * one, d, after);
     constraints.evaluate(q - kStep * one, d, before);
     const double change = std::abs(after(0, 0) - before(0, 0)) / (2 * kStep);
-    CHECK(change <= bound * (1 + 1e-6) + 1e-9);  // the gradient's rounding over the step
+    CHECK(change <= bound * (1 + 1e-6) + 1e-9);  // the gradient's rounding divided by the step
     nearest = std::max(nearest, change / bound);
   }
-  CHECK(nearest > 0.7);  // else the bound would be too wide to fail
+  CHECK(nearest > 0.7);  // otherwise the bound would be too wide to test anything
 }
 
 TEST_CASE("the Lagrangian's Hessian is the weighted sum of the rows', in a structure that stays") {
@@ -293,7 +294,7 @@ TEST_CASE("a sparse matrix of another structure is refused, and left as it is") 
     CHECK(MatrixXd(*other) == before);
   }
   CHECK(constraints.hessian(q, weights, lower));
-  // As many entries in a matrix of another size, and room for more.
+  // A matrix of another size with the same number of entries, and a matrix with spare room.
   CollisionConstraints::SparseJacobian jacobian = constraints.makeJacobian();
   CollisionConstraints::SparseJacobian wide(1, constraints.nonZeros()), loose = jacobian;
   for (int k = 0; k < constraints.nonZeros(); ++k) wide.insert(0, k) = 1;

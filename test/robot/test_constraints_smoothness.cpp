@@ -1,4 +1,4 @@
-// J(q) is continuous, and its change along a vector is what hessianVector() says.
+// J(q) is continuous, and its change along a vector is the result of hessianVector().
 #include <fcl/geometry/bvh/BVH_model.h>
 #include <fcl/geometry/shape/box.h>
 #include <fcl/geometry/shape/capsule.h>
@@ -14,7 +14,7 @@ using namespace fcl_stpbv::test;
 
 namespace {
 
-// Gradient of one pair along a line of configurations.
+// The gradient of one pair along a line of configurations.
 class Line {
  public:
   Line(const Problem& p, const CheckedPair& pair, Eigen::VectorXd from, Eigen::VectorXd to)
@@ -29,7 +29,8 @@ class Line {
     return values_;
   }
 
-  // Halves the part where the gradient changes more, down to a length of 2^-40; how much it changes there.
+  // Repeatedly takes the half in which the gradient changes more, down to a length of 2^-40. @returns the
+  // change there.
   double jump(double low, double high) {
     Eigen::VectorXd atLow = gradient(low), atHigh = gradient(high);
     while (high - low > 0x1p-40) {
@@ -47,13 +48,13 @@ class Line {
   Eigen::VectorXd from_, to_, d_, values_;
 };
 
-// Not deeper than half the margins, so that by theory the gradient changes by at
-// most lever^2 / (margins / 2) per radian.
+// Whether the overlap is at most half the margins, so that by theory the gradient changes by at most lever^2
+// / (margins / 2) per radian.
 bool smoothThere(const DistanceAnswer& answer) {
   return answer.status == DistanceStatus::exact && answer.continuous && answer.distance > -0.01;
 }
 
-// Sweeps a coordinate over its range and looks for a jump in each row where it changed most.
+// Moves a coordinate over its range, and searches for a jump in each row where the row changed most.
 double worstJump(const Problem& p, const Eigen::VectorXd& posture, int coordinate) {
   constexpr int kSteps = 100;
   CollisionConstraints constraints(p.kinematics, p.geometry, p.pairs);
@@ -88,8 +89,8 @@ double worstJump(const Problem& p, const Eigen::VectorXd& posture, int coordinat
   return worst;
 }
 
-// Largest difference between a row's part of hessianVector() and the change of its gradient; rows whose
-// one-sided differences tell of a region boundary in between are left out and counted.
+// Largest difference between a row's part of hessianVector() and the change of its gradient. Rows whose
+// one-sided differences show a region boundary in between are left out and counted.
 struct SecondOrder {
   double worst = 0;
   int compared = 0, boundaries = 0;
@@ -128,8 +129,8 @@ SecondOrder secondOrder(CollisionConstraints& constraints, const Kinematics& kin
   return result;
 }
 
-// Where no region boundary lies in the step, a central difference is off by step^2 times a third derivative,
-// below 1e4 here, and by rounding of the gradient, about 1e-14, divided by the step.
+// If no region boundary lies in the step, a central difference is off by step^2 times a third derivative,
+// which is below 1e4 here, and by the gradient's rounding, about 1e-14, divided by the step.
 constexpr double kSecond = 1e-7;
 
 }  // namespace
@@ -187,7 +188,7 @@ TEST_CASE(
   CHECK(found.worst < kSecond);
   CHECK(found.compared > 500);
 
-  // All rows at once, and symmetric.
+  // All rows at once; the matrix is symmetric.
   Random random(3);
   const Eigen::VectorXd q = randomConfiguration(*p.kinematics, random),
                         weights = Eigen::VectorXd::Ones(constraints.rows()),
@@ -225,7 +226,7 @@ TEST_CASE(
   CHECK(found.compared > 500);
   CHECK(found.boundaries < found.compared / 50);
 
-  // A closed form is symmetric to rounding, differences to about 1e-9.
+  // A closed form is symmetric to rounding, differences are symmetric to about 1e-9.
   Random random(3);
   double worst = 0;
   for (int trial = 0; trial < 20; ++trial) {

@@ -1,5 +1,4 @@
-// How rows enter at every level of the velocity damper, and that no sampled pair passes its security
-// distance.
+// How rows enter at every level of the velocity damper. No sampled pair may pass its security distance.
 #include <fcl/geometry/shape/box.h>
 
 #include <catch2/catch.hpp>
@@ -19,7 +18,7 @@ namespace {
 
 constexpr double kTick = 1e-3, kSecurity = 0.01, kReach = 0.04;
 
-/// A box on a rail comes to a wall: the distance is what the coordinate still is from it.
+/// A box on a rail moves towards a wall. Its distance is the remaining way of the coordinate.
 struct Rail {
   std::unique_ptr<CollisionConstraints> constraints;
   double touch = 0;
@@ -39,13 +38,13 @@ struct Rail {
     touch = d[0];
   }
 
-  /// Updates where the pair is `room` above its security distance and comes at `speed`.
+  /// Updates with the pair `room` above its security distance, approaching at `speed`.
   void update(VelocityDamper& damper, double room, double speed) const {
     damper.update(VectorXd::Constant(1, touch - kSecurity - room), VectorXd::Constant(1, speed));
   }
 };
 
-/// What a row leaves of what is wanted: J = -1.
+/// The largest velocity or acceleration that a row allows, at most `wanted`: J = -1.
 double allowed(const VelocityDamper& damper, double wanted) {
   return damper.near().empty() ? wanted : std::min(wanted, -damper.b()[0]);
 }
@@ -67,8 +66,8 @@ TEST_CASE("a pair that is no faster than its damper allows keeps its xi, however
       const VectorXd q = VectorXd::Constant(1, tick == 0 ? rail.touch - kSecurity - room : d);
       damper.update(q, VectorXd::Constant(1, before));
       const double now = allowed(damper, 0.2);
-      CHECK(damper.d()[0] >= kSecurity - 1e-12);  // rounding
-      // Never back, and after the first tick only braked: with 0.5 / 0.04 a second.
+      CHECK(damper.d()[0] >= kSecurity - 1e-12);  // to rounding
+      // The box never moves back. After the first tick it is only braked, at a rate of 0.5 / 0.04 per second.
       CHECK(now >= 0);
       if (tick > 0) CHECK(std::abs(now - before) <= 12.5 * 0.2 * kTick * (1 + 1e-6));
       before = now;
@@ -85,7 +84,7 @@ TEST_CASE("a row asks for what its damper allowed when the damper is made anew a
       VelocityDamper damper(*rail.constraints, {});
       const double own = 0.5 / kReach * room;
       rail.update(damper, room, part * own);
-      // Twice the excess, and the rounding of the distance.
+      // Twice the excess, plus the rounding of the distance.
       CHECK(allowed(damper, 9) <= own * std::max(1.0, 2 * part - 1) + 1e-13);
       CHECK(allowed(damper, 9) >= own - 1e-13);
     }
@@ -113,13 +112,13 @@ TEST_CASE("no row acts on the tick on which it enters where its pair is some per
           CHECK(a >= 12.5);
           CHECK(gain >= g);
           CHECK(std::max(a, both ? gain : 0) <= (velocity ? 1 : 1.0 / 3) / kTick * (1 + 1e-12));
-          // Of a barrier: inside its set, so that the row keeps the pair from its security distance.
+          // For a barrier: the state is inside its set, so the row keeps the pair from its security distance.
           if (both && away > 1.001) CHECK(a * room >= speed);
           if (speed == 0) CHECK(a == Approx(12.5).epsilon(1e-15));
           if (!both || speed == 0) CHECK(gain == g);
           damper.update(VectorXd::Constant(1, rail.touch - 1), VectorXd::Zero(1));
           rail.update(damper, room, 0);
-          CHECK(damper.damping(0) == 0.5);  // it has left
+          CHECK(damper.damping(0) == 0.5);  // the pair has left the influence
           CHECK(damper.barrierGain(0) == g);
         }
 }
@@ -136,7 +135,7 @@ TEST_CASE("a pair that enters at any speed that leaves it time does not pass its
           double left = room, speed = room / (periods * kTick), least = room;
           for (int tick = 0; tick < 300; ++tick) {
             rail.update(damper, left, speed);
-            // As fast towards the wall as the row lets it.
+            // It moves towards the wall as fast as the row allows.
             const double x = allowed(damper, velocity ? 1 + speed : 1e4);
             const double next = velocity ? x : speed + kTick * x;
             left -= kTick * (exact && !velocity ? (speed + next) / 2 : next);
@@ -171,7 +170,7 @@ TEST_CASE("a damper on rows that bend over brakes as one on rows that do not") {
       bends.influence = 0.1;
       const Rail straight;
       Rail bent(bends);
-      bent.touch = straight.touch;  // at 0 its row is constant
+      bent.touch = straight.touch;  // where the row is constant at 0
       CHECK(peak(bent) == Approx(peak(straight)).epsilon(1e-9));
     }
 }
@@ -179,7 +178,7 @@ TEST_CASE("a damper on rows that bend over brakes as one on rows that do not") {
 TEST_CASE("an influence at the end of where a row is exact is taken, however it is rounded or written") {
   int above = 0;  // decimals that are larger than the value by rounding
   for (int cm = 1; cm < 60; ++cm)
-    for (const double share : {0.5, 0.3, 0.7}) {  // of the influence that is exact
+    for (const double share : {0.5, 0.3, 0.7}) {  // shares of the influence up to which a row is exact
       ConstraintOptions reach;
       reach.influence = cm / 100.0;
       reach.exactUpTo = share * reach.influence;
@@ -214,8 +213,8 @@ TEST_CASE("a tick without a velocity uses up no entry") {
 
 TEST_CASE(
     "a pair whose rows turn within a tick comes below its security distance by what docs/control.md says") {
-  // A ball on an arm of 0.3 m turns in front of a wall that the rail pushes it to. At angle 0 its distance is
-  // largest and falls with the square of the angle, which no row of velocities knows.
+  // A ball on an arm of 0.3 m turns in front of a wall, towards which the rail pushes it. At angle 0 its
+  // distance is largest and falls with the square of the angle, which a velocity row does not know.
   const char* const text = R"(<robot name="arm"><link name="base"/><link name="slide"/><link name="ball"/>
     <joint name="x" type="prismatic"><parent link="base"/><child link="slide"/><axis xyz="1 0 0"/>
       <limit lower="-9" upper="9" effort="1" velocity="1"/></joint>
@@ -238,7 +237,7 @@ TEST_CASE(
     damper.update(q, qd);
     const VectorXd a = MatrixXd(damper.A()).row(0);
     qd = wanted;
-    // The rail alone gives way.
+    // Only the rail gives way.
     if (!damper.near().empty()) qd[0] = std::min(qd[0], (damper.b()[0] - a[1] * qd[1]) / a[0]);
     least = std::min(least, damper.d()[0] - kSecurity);
   }

@@ -1,5 +1,5 @@
-// Extreme bodies and radii: thin, tiny, huge, almost degenerate, almost
-// cospherical, of very few or very many vertices.
+// Extreme bodies and radii: thin, tiny, huge, almost degenerate, almost cospherical, with very few or very
+// many vertices.
 #include <cmath>
 #include <cstdio>
 
@@ -13,7 +13,8 @@ using test::Random;
 
 namespace {
 
-/// Two bodies about their own size apart and close together, in random directions and orientations.
+/// Placements of two bodies about their own size apart and close together, in random directions and
+/// orientations.
 std::vector<Placement> around(Random& random, const Body& a, const Body& b, int count) {
   const StpBv &va = a.smooth->volume(), &vb = b.smooth->volume();
   const double size = va.enclosingRadius() + vb.enclosingRadius();
@@ -107,7 +108,8 @@ void addNearDegenerate(Maker& m) {
     m.add("cospherical points", formatted("40 points, moved by %.0e m, R near their radius", noise), snug,
           snug);
   }
-  // A face of many coplanar points, out of the plane by less than rounding: hill climbing stops early on it.
+  // A face of many coplanar points that are out of the plane by less than rounding, on which hill climbing
+  // stops early.
   for (const double noise : {1e-17, 1e-12}) {
     Cloud grid;
     for (int i = 0; i <= 8; ++i)
@@ -164,13 +166,13 @@ void addCounts(Maker& m, bool large) {
   const auto crowd = makeBody(test::randomHull(100000, {0.2, 0.15, 0.1}, 5), usual);
   m.add("vertex counts 1, 2, 3, 4, 100000", "100000, most of them inside, against a box", crowd, box);
   if (!large) return;
-  Random random(6);  // its own, so that the cases after it are the same without it
+  Random random(6);  // a generator of its own, so that the cases after it are the same without it
   const auto ball = makeBody(onSphere(random, 100000, 0.2, 0), usual);
   m.add("vertex counts 1, 2, 3, 4, 100000", "100000 on a sphere, against a box", ball, box,
         around(random, *ball, *box, 2));
 }
 
-/// A hull and its mirror image in mirrored poses: left and right limb.
+/// A hull and its mirror image in mirrored poses, like a left and a right limb.
 void addMirrored(Maker& m, std::uint64_t seed) {
   const StpBvOptions usual{0.01, 10.0};
   const Vector3d flip(1, -1, 1);

@@ -1,4 +1,5 @@
-// Bullet's GJK with its EPA for overlaps. Bullet is optional: without it this file says so.
+// Bullet's GJK with its EPA for overlaps. Bullet is optional; without it, this file reports that it is
+// missing.
 #include "test/reference/stability/contestant.h"
 
 #ifdef FCL_STPBV_BULLET

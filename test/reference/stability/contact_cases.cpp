@@ -1,5 +1,5 @@
-// What is parallel, and what touches: faces, edges and vertices over each other at gaps and depths from 1e-15
-// m to 1e-3 m; and slides and rocks through the same.
+// Parallel and touching features: faces, edges and vertices over each other at gaps and depths from 1e-15 m
+// to 1e-3 m, and slides and rocks through these.
 #include <cmath>
 
 #include "test/reference/stability/situation.h"
@@ -22,13 +22,13 @@ Matrix3d about(const Vector3d& axis, double angle) {
   return AngleAxisd(angle, axis.normalized()).toRotationMatrix();
 }
 
-/// A body with the feature to be tried at its top, and one that has it at its bottom: the distance along z at
-/// which the two polyhedra touch.
+/// A body with the tested feature at its top, and one with it at its bottom. touching() is the distance along
+/// z at which the two polyhedra touch.
 struct Arrangement {
   const char* name;
   Cloud below, above;
   Matrix3d turnBelow, turnAbove;
-  Vector3d lateral;  ///< the upper body's place across z
+  Vector3d lateral;  ///< position of the upper body across z
 
   double touching() const {
     double top = -HUGE_VAL, bottom = HUGE_VAL;
@@ -63,14 +63,15 @@ std::vector<Arrangement> arrangements() {
           {"round side over face", slab, drum, flat, about(Vector3d::UnitX(), M_PI / 2), aside}};
 }
 
-/// The pair with its polyhedra `gap` apart, both turned together so that no axis of the world helps.
+/// The pair with its polyhedra `gap` apart. Both are turned together, so that no axis of the world is
+/// special.
 Placement placed(const Arrangement& arrangement, double gap, const Matrix3d& world) {
   const Vector3d up = arrangement.lateral + Vector3d(0, 0, arrangement.touching() + gap);
   return {test::pose(world * arrangement.turnBelow, {0, 0, 0}),
           test::pose(world * arrangement.turnAbove, world * up)};
 }
 
-/// Group of the table for an arrangement: what is over what.
+/// Group of the table for an arrangement, by its two features.
 std::string groupOf(const Arrangement& arrangement) {
   const std::string name = arrangement.name;
   if (name.rfind("vertex", 0) == 0) return "vertex over vertex, edge, face";
@@ -145,7 +146,7 @@ void addMotions(std::vector<Situation>& all, std::uint64_t seed) {
       add("slides", "sliding", [&](Isometry3d& p, double x) { p.translation() += x * along; });
       add("rocks", "rocking", [&](Isometry3d& p, double x) { p.linear() = about(across, x) * p.linear(); });
     }
-    // Through contact, along the normal.
+    // A motion through contact, along the normal.
     Situation s;
     s.group = "slides";
     s.name = std::string(arrangement.name) + ", approaching through contact";

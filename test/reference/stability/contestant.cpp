@@ -1,6 +1,6 @@
-// The table of methods, and FCL's and the library's own: fcl::distance with either solver, signed or not;
-// STP-BVs started from FCL's witness or from the last answer; the paper's mapping alone (IV.C, IV.D), which
-// nothing checks. Bullet and libccd have their own files.
+// The table of methods, and the methods of FCL and of the library: fcl::distance with either solver, signed
+// or not; STP-BVs started from FCL's witness or from the last answer; the paper's mapping alone (IV.C, IV.D),
+// whose features are not checked. Bullet and libccd have their own files.
 #include "test/reference/stability/contestant.h"
 
 #include <fcl/narrowphase/distance.h>
@@ -34,7 +34,7 @@ class Fcl : public Contestant {
     Answer answer;
     answer.distance = fcl::distance(&a_, at.a, &b_, at.b, request_, result);
     answer.kind = Answer::Kind::distance;
-    if (!kSigned && answer.distance == -1) {  // FCL's word for overlap, and for an error
+    if (!kSigned && answer.distance == -1) {  // FCL's value for an overlap, and for an error
       answer.kind = Answer::Kind::overlap;
       return answer;
     }
@@ -99,8 +99,8 @@ class Warm : public Contestant {
   PairCache cache_;
 };
 
-/// The paper's mapping taken at its word (IV.C, IV.D): polyhedral witness, smooth features, their distance;
-/// nothing checks that these are the right features.
+/// Only the paper's mapping (IV.C, IV.D): polyhedral witness, smooth features, their distance. It is not
+/// checked that these are the right features.
 class Heuristic : public Contestant {
  public:
   explicit Heuristic(const Situation& s) : a_(*s.a->smooth), b_(*s.b->smooth) {}
@@ -110,7 +110,7 @@ class Heuristic : public Contestant {
     const PolyhedralWitness witness = polyhedralWitness(a_.hull(), at.a, b_.hull(), at.b);
     const std::array<int, 2> mapped = mapFeatures(a_, at.a, b_, at.b, witness);
     if (mapped[0] < 0 || mapped[1] < 0) {
-      answer.kind = Answer::Kind::refusal;  // the polyhedra overlap: there are no closest features
+      answer.kind = Answer::Kind::refusal;  // the polyhedra overlap, so there are no closest features
       return answer;
     }
     const Matrix3d toA = at.a.linear().transpose();

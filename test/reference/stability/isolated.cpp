@@ -1,6 +1,7 @@
-// 1. A child process answers placement after placement and sends each answer through a pipe; each has a limit
-// on processor time. 2. Where answers end early, the child's end tells an abort from a hang. 3. A new child
-// goes on with the next situation.
+// 1. A child process answers one placement after another and sends each answer through a pipe. Each answer
+// has a limit on processor time.
+// 2. If answers end early, the way in which the child ended shows whether it was an abort or a hang.
+// 3. A new child continues with the next situation.
 #include "test/reference/stability/isolated.h"
 
 #include <fcntl.h>
@@ -46,7 +47,7 @@ bool receive(int pipe, Answer& answer) {
 
 [[noreturn]] void answerFrom(const Method& method, const std::vector<Situation>& situations,
                              std::size_t first, double seconds, int pipe) {
-  const int silence = ::open("/dev/null", O_WRONLY);  // what assertions and methods print is not the verdict
+  const int silence = ::open("/dev/null", O_WRONLY);  // the output of assertions and methods does not count
   ::dup2(silence, STDOUT_FILENO);
   ::dup2(silence, STDERR_FILENO);
   for (std::size_t i = first; i < situations.size(); ++i) {
@@ -73,7 +74,7 @@ std::vector<std::vector<Answer>> answersOf(const Method& method, const std::vect
                                            double seconds) {
   std::vector<std::vector<Answer>> all(situations.size());
   for (std::size_t i = 0; i < situations.size(); ++i) all[i].resize(situations[i].placements.size());
-  std::fflush(nullptr);  // a child must not print what the parent has yet to
+  std::fflush(nullptr);  // so that a child does not print the parent's buffered output
   for (std::size_t next = 0; next < situations.size();) {
     int ends[2];
     if (::pipe(ends) != 0) throw std::runtime_error("no pipe to a child process");

@@ -1,5 +1,5 @@
-// Runs a method on all situations in a child process, so that nothing it does, not even ending the process or
-// never coming back, stops the others.
+// Runs a method on all situations in a child process. So the others continue even if the method ends the
+// process or never returns.
 #pragma once
 
 #include <vector>

@@ -1,6 +1,8 @@
-// 1. Some verdicts need no truth: ended, refused, threw, not a number. 2. An answer's error against the
-// truth, in metres, less what rounding explains. 3. Along a path, the gradient's change in a step against the
-// most that the radii allow (docs/theory.md, 6). 4. The worst verdict counts.
+// 1. Some verdicts need no truth: process ended, refused, threw, not a number.
+// 2. Otherwise an answer's error compared with the truth, in metres, minus what rounding explains.
+// 3. Along a path, the gradient's change in a step compared with the largest change that the radii allow
+// (docs/theory.md, 6).
+// 4. The worst verdict counts.
 #include "test/reference/stability/judge.h"
 
 #include <algorithm>
@@ -16,7 +18,7 @@ using Eigen::Vector3d;
 namespace {
 
 constexpr double kUlp = std::numeric_limits<double>::epsilon();
-constexpr int kSampled = 3;  // truths along a path: the reference takes milliseconds each
+constexpr int kSampled = 3;  // truths along a path; the reference takes milliseconds for each
 
 Vector3d vectorOf(const double (&v)[3]) { return Map<const Vector3d>(v, 3); }
 double off(long double x, long double y) { return static_cast<double>(std::abs(x - y)); }
@@ -26,7 +28,7 @@ bool finite(const Answer& a) {
          (!a.hasPoints || (vectorOf(a.point[0]).allFinite() && vectorOf(a.point[1]).allFinite()));
 }
 
-/// Verdicts that need no truth; false for an answer that has to be looked at.
+/// Gives verdicts that need no truth. @returns false if the answer must be compared with the truth.
 bool withoutTruth(const Situation& s, const Answer& a, Judgement& j) {
   using Kind = Answer::Kind;
   const auto is = [&](Verdict v) { return j.verdict = v, true; };
@@ -38,14 +40,14 @@ bool withoutTruth(const Situation& s, const Answer& a, Judgement& j) {
     case Kind::hang:
       return is(Verdict::hang);
     case Kind::none:
-      return true;  // of a child that ended before
+      return true;  // the child ended before this answer
     case Kind::refusal:
       return is(s.expected == Expected::refusal ? Verdict::exact : Verdict::none);
     default:
       break;
   }
   if (s.expected == Expected::refusal) {
-    // "Overlap" is what FCL also says where it failed, a distance is a claim.
+    // FCL reports an overlap also if it failed, but a distance is a claim.
     if (a.kind == Kind::overlap) return is(Verdict::exact);
     j.amount = std::abs(a.distance);
     return is(finite(a) ? Verdict::wrong : Verdict::nan);
@@ -54,9 +56,9 @@ bool withoutTruth(const Situation& s, const Answer& a, Judgement& j) {
 }
 
 struct Rounding {
-  double distance;  ///< of an answer exact to rounding (m)
-  double across;    ///< of its points along the surface (m)
-  double world;     ///< of a coordinate in the world (m)
+  double distance;  ///< rounding of an answer that is exact to rounding (m)
+  double across;    ///< rounding of its points along the surface (m)
+  double world;     ///< rounding of a coordinate in the world (m)
 };
 
 Rounding roundingOf(const Situation& s, const Placement& at) {
@@ -65,7 +67,8 @@ Rounding roundingOf(const Situation& s, const Placement& at) {
   return {64 * kUlp * size + s.slack, 64 * kUlp * (size + big) + s.slack, 8 * kUlp * world + s.slack};
 }
 
-/// What the error of the normal would make of the distance: a plane tilted by e has a gap smaller by d e^2/2.
+/// The error of the distance that follows from the normal's error: a plane tilted by e has a gap smaller by d
+/// e^2/2.
 double normalError(const Vector3d& n, const Vector3L& right, long double length) {
   const double e = static_cast<double>((n.cast<long double>() - right).norm());
   return static_cast<double>(length) * e * e / 2;
@@ -101,13 +104,13 @@ Judgement judgeSmooth(const Situation& s, const Placement& at, const SmoothTruth
     if (tilt > grain) error = std::max(error, tilt);
     return judged(error, rounding.distance, size);
   }
-  // Deep: any way out is one, if its length is right and both bounds hold.
+  // Deep overlap: any way out is accepted, if its length is right and both bounds hold.
   error = std::max(error, off(a.distance, smoothGap(s, at, vectorOf(a.normal))));
   error = std::max(error, static_cast<double>(truth.widest) - rounding.distance - a.upper);
   Judgement j = judged(error, rounding.distance, size);
   if (j.verdict != Verdict::exact) return j;
   const double missed = static_cast<double>(truth.widest) - a.distance;
-  if (missed <= 1e-9 * size)  // what the reference's own steps leave open
+  if (missed <= 1e-9 * size)  // tolerance of the reference's own steps
   {
     j.verdict = Verdict::global;
   } else {
@@ -141,7 +144,8 @@ Judgement judgeSharp(const Method& method, const Situation& s, const Placement& 
       if (a.hasPoints && truth.known && known > 1e-3 * size && a.distance > 0) {
         error = std::max(error, pointsError(a, rounding));
         const double tilt = normalError(vectorOf(a.normal), truth.normal, truth.distance);
-        if (tilt > 1e-15 * known) error = std::max(error, tilt);  // rounding of points a bodies' size away
+        // Rounding of points as far away as the bodies' size.
+        if (tilt > 1e-15 * known) error = std::max(error, tilt);
       }
   }
   return judged(error, rounding.distance, size);
@@ -156,7 +160,7 @@ Eigen::Matrix<double, 6, 1> gradientOf(const Placement& at, const Answer& a) {
   return g;
 }
 
-/// How much the gradient may change between two placements, and what rounding adds.
+/// The largest change of the gradient between two placements that the radii allow, plus rounding.
 double steepest(const Situation& s, const Placement& p, const Placement& q, double core) {
   const auto relative = [](const Placement& at) {
     return test::pose(at.a.linear().transpose() * at.b.linear(),
@@ -173,7 +177,7 @@ double steepest(const Situation& s, const Placement& p, const Placement& q, doub
   return normal * (1 + reach) + point + 1e-9;
 }
 
-/// The largest change beyond that, if any.
+/// The largest change that exceeds this, if any.
 Judgement judgeSteps(const Situation& s, const std::vector<Answer>& answers) {
   Judgement worst;
   const auto usable = [](const Answer& a) {

@@ -1,4 +1,4 @@
-// What an answer is worth, seen beside the right one.
+// Compares an answer with the right one.
 #pragma once
 
 #include <array>
@@ -10,15 +10,15 @@
 
 namespace fcl_stpbv::stability {
 
-/// From best to worst: a case has the verdict of its worst answer.
+/// From best to worst. The verdict of a case is that of its worst answer.
 enum class Verdict {
   exact,      ///< to rounding
-  global,     ///< deeper than the margins: no better way out was found by the reference
-  local,      ///< deeper than the margins: a way out, said to be only local, and there is a better one
+  global,     ///< deeper than the margins: the reference found no better way out
+  local,      ///< deeper than the margins: a way out that is reported as local, and there is a better one
   tolerance,  ///< off by at most kTolerance of the pair's size
-  jump,       ///< right answers, between which the gradient jumps
-  wrong,      ///< off by more
-  none,       ///< no answer where there is one
+  jump,       ///< right answers, but the gradient jumps between them
+  wrong,      ///< off by more than kTolerance
+  none,       ///< no answer although there is one
   nan,
   exception,
   hang,
@@ -32,13 +32,14 @@ inline bool isFailure(Verdict verdict) { return verdict >= Verdict::jump; }
 
 struct Judgement {
   Verdict verdict = Verdict::exact;
-  double amount = 0;  ///< wrong and tolerance: metres off; jump: change of the gradient in one step
-  int placement = 0;  ///< the first with this verdict
+  double amount = 0;  ///< wrong and tolerance: error in metres; jump: change of the gradient in one step
+  int placement = 0;  ///< the first placement with this verdict
 
   std::string text() const;  ///< "wrong by 3e-05"
 };
 
-/// The right answers to some of a situation's placements, evenly spread, first and last among them.
+/// The right answers to some of a situation's placements, evenly distributed, including the first and the
+/// last.
 struct Truths {
   std::vector<int> placement;
   std::vector<SmoothTruth> smooth;
@@ -46,12 +47,12 @@ struct Truths {
 };
 Truths truthsOf(const Situation& situation);
 
-/// Judges all answers: those with a known truth by it, a path's also by its steps.
+/// Judges all answers: those whose truth is known by the truth, and a path's also by its steps.
 ///
-/// Off by: the largest of the distance's error; of what the normal's error would make of the
-/// distance; of how much the witness points disagree with both. A jump: the gradient of the
-/// distance (with respect to the second body's twist) changes in a step by more than it can
-/// between STP-BVs of these radii (docs/theory.md, 6).
+/// The error is the largest of: the distance's error; the error of the distance that follows from the
+/// normal's; the difference of the witness points from both. A jump: the gradient of the distance (with
+/// respect to the second body's twist) changes in a step by more than it can between STP-BVs of these radii
+/// (docs/theory.md, 6).
 Judgement judge(const Method& method, const Situation& situation, const Truths& truths,
                 const std::vector<Answer>& answers);
 

@@ -1,4 +1,5 @@
-// libccd by itself: it tells overlap from separation, and how deep an overlap is, but no distance.
+// libccd alone: it distinguishes overlap from separation, and computes the depth of an overlap, but no
+// distance.
 #include <ccd/ccd.h>
 
 #include "test/reference/stability/contestant.h"
@@ -43,7 +44,7 @@ class Libccd : public Contestant {
     CCD_INIT(&ccd_);
     ccd_.support1 = ccd_.support2 = support;
     ccd_.center1 = ccd_.center2 = middle;
-    ccd_.max_iterations = 500;  // as FCL does; libccd's own choice is no limit at all
+    ccd_.max_iterations = 500;  // as in FCL; libccd's default is no limit
     ccd_.epa_tolerance = ccd_.mpr_tolerance = ccd_.dist_tolerance = 1e-10;
   }
 

@@ -1,6 +1,6 @@
-// Apart: Wolfe's active sets in the differences of corners. The corner extreme along the present difference
-// joins; those without weight leave. Overlapping: all normals across three corners of one hull, and across
-// two directions between corners, one of each hull.
+// Apart: Wolfe's active sets, on the differences of corners. The corner that is extreme along the present
+// difference joins; corners without weight leave. Overlapping: all normals across three corners of one hull,
+// and across two directions between corners, one of each hull.
 #include "test/reference/stability/polyhedra.h"
 
 #include <Eigen/Dense>
@@ -26,7 +26,7 @@ long double largest(const std::vector<Vector3L>& points) {
   return length;
 }
 
-/// Weights, summing to 1, of the point nearest to the origin in the flat through these points.
+/// Weights, with sum 1, of the point nearest to the origin in the affine span of these points.
 VectorL flatWeights(const std::vector<Vector3L>& points) {
   const auto count = static_cast<Eigen::Index>(points.size());
   VectorL weights(count);
@@ -53,7 +53,8 @@ struct Active {
     return sum;
   }
 
-  /// To the point nearest to the origin in the hull of the active points; those it does not need leave.
+  /// Moves to the point nearest to the origin in the hull of the active points. Points that it does not need
+  /// leave.
   void settle() {
     for (;;) {
       const VectorL target = flatWeights(points);
@@ -120,7 +121,7 @@ Nearest nearestDifference(const std::vector<Vector3L>& a, const std::vector<Vect
     }
     if (gap <= rounding) return best;
     for (const Vector3L& p : active.points)
-      if (p == corner) return best;  // nothing new: as near as rounding lets it come
+      if (p == corner) return best;  // no new corner: rounding allows no nearer point
     active.points.push_back(corner);
     active.weights.push_back(0);
     active.settle();

@@ -1,4 +1,4 @@
-// Extreme and broken poses, and polyhedra from degenerate meshes.
+// Extreme and invalid poses, and polyhedra from degenerate meshes.
 #include <cmath>
 #include <cstdio>
 #include <limits>
@@ -63,8 +63,8 @@ void addPoses(std::vector<Situation>& all, std::uint64_t seed) {
           for (int k = 0; k < 9; ++k) p->linear()(k / 3, k % 3) += error * random.uniform(-1, 1);
         s.placements.push_back(at);
       }
-      // A matrix off by e moves points by up to 3 e of their distance; which
-      // rotation is meant is open by as much.
+      // A matrix that is off by e moves points by up to 3 e of their distance. The rotation that is meant is
+      // uncertain by as much.
       s.slack = 10 * error;
       all.push_back(std::move(s));
     }
@@ -88,18 +88,19 @@ void addMeshes(std::vector<Situation>& all, std::uint64_t seed) {
   Random random(seed + 5);
   const StpBvOptions usual{0.01, 10.0};
   const Cloud box = test::box(0.3, 0.2, 0.25);
-  // Corner i has x, y, z above zero where bits 1, 2, 4 of i are set; counter-clockwise from outside.
+  // Corner i has positive x, y, z if bits 1, 2, 4 of i are set. Faces are counter-clockwise from outside.
   const std::vector<int> quads{4, 0, 2, 3, 1, 4, 4, 5, 7, 6, 4, 0, 1, 5, 4,
                                4, 2, 6, 7, 3, 4, 0, 4, 6, 2, 4, 1, 3, 7, 5};
   std::vector<int> inside = quads, holed(quads.begin(), quads.end() - 10), zero = quads;
   for (std::size_t f = 0; f < inside.size(); f += 5) std::swap(inside[f + 2], inside[f + 4]);
-  for (const int i : {0, 1, 1, 2, 2, 2, 5, 7, 5})  // triangles of zero area beside the good faces
+  for (const int i : {0, 1, 1, 2, 2, 2, 5, 7, 5})  // triangles of zero area in addition to the good faces
     zero.push_back(i);
   zero.insert(zero.end() - 9, 3);
   zero.insert(zero.end() - 6, 3);
   zero.insert(zero.end() - 3, 3);
-  Cloud bigDrum = test::cylinder(0.15, 0.3, 40);  // above 32 vertices FCL climbs over the faces it is given
-  std::vector<int> open;                          // its side only: lids are missing
+  // For more than 32 vertices FCL climbs over the faces it is given.
+  Cloud bigDrum = test::cylinder(0.15, 0.3, 40);
+  std::vector<int> open;  // only its side; the lids are missing
   for (int i = 0; i < 40; ++i) {
     const int j = (i + 1) % 40;
     open.insert(open.end(), {4, 2 * i, 2 * j, 2 * j + 1, 2 * i + 1});

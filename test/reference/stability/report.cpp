@@ -1,4 +1,4 @@
-// The suite's results case by case, for the tables and the picture that are made of them.
+// The suite's results case by case, for the tables and the picture that are made from them.
 #include "test/reference/stability/suite.h"
 
 namespace fcl_stpbv::stability {

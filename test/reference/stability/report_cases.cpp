@@ -1,4 +1,5 @@
-// Published reports: the files of data/hard_cases, one situation each; and pairs found here.
+// Published reports: one situation for each file of data/hard_cases. Also pairs that were found in this
+// project.
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
@@ -24,7 +25,8 @@ struct Half {
   throw std::runtime_error(file.string() + ":" + std::to_string(line) + ": " + what);
 }
 
-/// Printed matrices are rotations to some digits only; which rotation is meant is open by as much (m).
+/// Printed matrices are rotations only to some digits. The rotation that is meant is uncertain by as much
+/// (m).
 double openByRotation(const Situation& s) {
   double open = 0;
   for (const Placement& at : s.placements) {
@@ -36,7 +38,7 @@ double openByRotation(const Situation& s) {
   return open < 1e-15 ? 0 : open;
 }
 
-/// data/hard_cases/README.md has the format.
+/// Loads a case. Its format is in data/hard_cases/README.md.
 Situation load(const std::filesystem::path& path) {
   std::ifstream file(path);
   if (!file) throw std::runtime_error("cannot open " + path.string());

@@ -1,5 +1,5 @@
-// A body is made from points and facets. The size of a pair says what its errors are measured by. The list of
-// all situations is sorted by group, with no two of one name.
+// Makes a body from points and facets. The size of a pair is the scale for its errors. The list of all
+// situations is sorted by group, and all names in it differ.
 #include "test/reference/stability/situation.h"
 
 #include <algorithm>
@@ -50,7 +50,7 @@ std::vector<Situation> allSituations(std::uint64_t seed, const std::string& hard
   addPoses(all, seed);
   addMeshes(all, seed);
   addReports(all, hardCases);
-  std::map<std::string, std::size_t> order;  // of the groups: as they first come
+  std::map<std::string, std::size_t> order;  // order of the groups: that of their first situations
   for (const Situation& s : all) order.emplace(s.group, order.size());
   std::stable_sort(all.begin(), all.end(),
                    [&](const Situation& s, const Situation& t) { return order[s.group] < order[t.group]; });

@@ -1,4 +1,4 @@
-// A situation in which distance codes break: two bodies, and the poses they are asked at.
+// A situation in which distance codes fail: two bodies, and the poses at which they are queried.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -17,7 +17,7 @@ namespace fcl_stpbv::stability {
 using detail::formatted;
 using test::Cloud;
 
-/// One of the two bodies: what everybody is given, and what is made of it.
+/// One of the two bodies: the input of all methods, and what is made from it.
 struct Body {
   Cloud points;
   StpBvOptions radii;
@@ -25,7 +25,8 @@ struct Body {
       facets;  ///< `[n, i0, ..]` repeated, as a mesh comes: only FCL reads it. Empty: the hull's own
 
   std::shared_ptr<const StpBvGeometry> smooth;  ///< the STP-BV of the points
-  std::shared_ptr<const fcl::Convexd> sharp;  ///< what FCL gets: the given facets, or the hull of the STP-BV
+  /// FCL's polyhedron: the given facets, or the hull of the STP-BV.
+  std::shared_ptr<const fcl::Convexd> sharp;
   Cloud corners;  ///< the polyhedron's points, for the methods that need no facets
 };
 
@@ -33,40 +34,41 @@ struct Placement {
   Eigen::Isometry3d a, b;
 };
 
-/// What an answer can be expected to be.
+/// The expected kind of answer.
 enum class Expected {
   distance,  ///< the signed distance
-  refusal,   ///< no distance at all: a pose is not a pose
+  refusal,   ///< no distance, because a pose is invalid
 };
 
-/// A case of the suite. Several placements follow one another like the steps of a motion where `isPath`.
+/// A case of the suite. With `isPath`, several placements follow one another like the steps of a motion.
 struct Situation {
   std::string group;  ///< row of the table
-  std::string name;   ///< unique within the suite; with the seed it says all that made the case
+  std::string name;   ///< unique within the suite; with the seed it determines the case
   std::shared_ptr<const Body> a, b;
   std::vector<Placement> placements;
   bool isPath = false;
   Expected expected = Expected::distance;
-  Eigen::Vector3d towards{0, 0, 0};  ///< rough direction from a to b in which they are apart; zero: not known
-  double slack = 0;                  ///< how far the input itself leaves the distance open (m)
-  std::string source;                ///< of a published report: where, and what it says
+  /// Rough direction from a to b in which they are apart; zero if it is not known.
+  Eigen::Vector3d towards{0, 0, 0};
+  double slack = 0;    ///< uncertainty of the distance because of the input (m)
+  std::string source;  ///< for a published report: where it is, and what it says
 };
 
-/// Points to be covered with these radii, and the polyhedron.
-/// @throws Error where no STP-BV can be built from them.
+/// Makes a body from points, the radii of its volume, and the polyhedron's facets.
+/// @throws Error if no STP-BV can be built from the points.
 std::shared_ptr<const Body> makeBody(const Cloud& points, const StpBvOptions& radii = {},
                                      const std::vector<int>& facets = {});
 
-/// A length that says how big the pair is: both bodies and, where they are farther
-/// apart than that, their distance (m).
+/// A length that describes the size of the pair: that of both bodies or, if they are farther apart, their
+/// distance (m).
 double sizeOf(const Situation& situation, const Placement& at);
 
-/// All situations; `seed` moves whatever is random in them. Those that take more
-/// than a second to set up only if `large`.
-/// @throws std::runtime_error where the folder with the published cases is missing.
+/// All situations. `seed` changes their random parts. Situations that take more than a second to set up are
+/// included only with `large`.
+/// @throws std::runtime_error if the folder with the published cases is missing.
 std::vector<Situation> allSituations(std::uint64_t seed, const std::string& hardCases, bool large);
 
-// By kind; each adds to `all`.
+// By kind. Each function adds to `all`.
 void addContacts(std::vector<Situation>& all, std::uint64_t seed);  ///< what is parallel or touches
 void addMotions(std::vector<Situation>& all, std::uint64_t seed);   ///< slides and rocks through them
 void addDepths(std::vector<Situation>& all, std::uint64_t seed);    ///< containment, coincidence

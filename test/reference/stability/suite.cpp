@@ -1,5 +1,6 @@
-// 1. The truths of all situations. 2. Each method's answers, from child processes. 3. A judgement of each
-// answer, and counts of failures.
+// 1. Compute the truths of all situations.
+// 2. Get each method's answers, from child processes.
+// 3. Judge each answer, and count failures.
 #include "test/reference/stability/suite.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// The whole suite: every method on every situation, judged.
+// The whole suite: every method on every situation, with verdicts.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -13,13 +13,14 @@ struct Results {
   std::vector<std::vector<Judgement>> of;  ///< by method, then by situation
 };
 
-/// Runs everything; methods whose id is not in `only` stay away unless that is empty.
+/// Runs everything. If `only` is not empty, only methods with these ids are run.
 Results runSuite(std::vector<Situation> situations, const std::vector<std::string>& only = {});
 
 /// {"cases": N, "failures": {id: count}}
 nlohmann::ordered_json summary(const Results& results);
 
-/// A row a case: group, case, placements, and each method's verdict and amount in the order of `methodNames`.
+/// One row per case: group, case, placements, and each method's verdict and amount in the order of
+/// `methodNames`.
 std::vector<nlohmann::ordered_json> caseRows(const Results& results);
 /// [{"id", "title"}] of the methods.
 nlohmann::ordered_json methodNames(const Results& results);

@@ -1,6 +1,6 @@
-// STP-BVs: 1. The distance of reference.h, if its own gap proves it. 2. Else, as where cores overlap, the
-// widest gap over a spiral of directions, the best ones climbed. Polyhedra: 1. The nearest difference of
-// polyhedra.h. 2. If they share a point, its least overlap.
+// STP-BVs: 1. The distance of reference.h, if its own gap proves it. 2. Otherwise, for example if cores
+// overlap, the widest gap over a spiral of directions, with the best ones refined. Polyhedra: 1. The nearest
+// difference by polyhedra.h. 2. If they share a point, their least overlap.
 #include "test/reference/stability/truth.h"
 
 #include <algorithm>
@@ -16,8 +16,8 @@ using test::ReferenceBody;
 
 namespace {
 
-// Where the bodies are deep in each other many directions are tried and the best ones improved in steps down
-// to this; what a step makes of the gap is its square times the big radius.
+// If the bodies are deep in each other, many directions are tried, and the best ones are improved in steps
+// down to kFinest. A step changes the gap by its square times the big radius.
 constexpr int kDirections = 400, kClimbs = 4, kMoves = 60;
 constexpr long double kFinest = 1e-6L;
 
@@ -25,7 +25,8 @@ ReferenceBody placed(const Body& body, const Eigen::Isometry3d& pose) {
   return test::referenceBody(body.smooth->volume().vertices(), body.radii.r, body.radii.R, pose);
 }
 
-/// Both bodies with the first one's place as origin: a difference of two doubles is exact in long double.
+/// Both bodies with the first one's position as origin, because the difference of two doubles is exact in
+/// long double.
 struct Pair {
   ReferenceBody a, b;
   Vector3L centres;  ///< from the middle of a's points to that of b's
@@ -48,8 +49,8 @@ Pair pairOf(const Situation& s, const Placement& at) {
   return pair;
 }
 
-/// A direction less than a right angle from every normal along which the cores are apart: the difference of
-/// the core points of any normal is one, for it is at least as far along such a normal as their gap.
+/// A direction less than a right angle from every normal along which the cores are apart. The difference of
+/// the core points of any normal is one, because along such a normal it is at least as long as their gap.
 Vector3L towardsAllGaps(const Situation& s, const Pair& pair) {
   Vector3L n = s.towards.isZero() ? pair.centres : Vector3L(s.towards.cast<long double>());
   if (!(n.norm() > 0)) n = Vector3L::UnitX();
@@ -61,7 +62,7 @@ Vector3L towardsAllGaps(const Situation& s, const Pair& pair) {
   return d.dot(n) > 0 || !(d.norm() > 0) ? n : Vector3L(d.normalized());
 }
 
-/// Climbs from `n` by ever shorter steps across it, eight directions each.
+/// Climbs from `n` by shorter and shorter steps across it, in eight directions each.
 long double climbed(const Pair& pair, Vector3L n) {
   long double best = referenceGap(pair.a, pair.b, n);
   for (long double step = 0.05L, left = kMoves; step > kFinest && left > 0; --left) {
@@ -85,7 +86,7 @@ SmoothTruth smoothTruth(const Situation& s, const Placement& at) {
   const long double size = static_cast<long double>(sizeOf(s, at));
   SmoothTruth truth;
   const test::ReferenceDistance found = referenceDistance(pair.a, pair.b, towardsAllGaps(s, pair));
-  // Proven where what the points allow beyond the planes is rounding.
+  // Proven if the points' distance exceeds the planes' gap by no more than rounding.
   if (std::isfinite(static_cast<double>(found.distance)) && found.gap <= 1e-15L * size) {
     truth.known = true;
     truth.distance = found.distance;
@@ -116,7 +117,7 @@ SharpTruth sharpTruth(const Situation& s, const Placement& at) {
   SharpTruth truth;
   truth.overlap = nearest.overlap;
   if (nearest.difference.norm() <= 1e-15L * static_cast<long double>(sizeOf(s, at)) && !nearest.overlap) {
-    truth.known = true;  // touch, to rounding
+    truth.known = true;  // they touch, to rounding
   } else if (!nearest.overlap) {
     truth.known = nearest.proven;
     truth.distance = nearest.difference.norm();
