@@ -23,15 +23,15 @@ using namespace fcl_stpbv::test;
 namespace {
 
 // The address sanitizer's allocator reserves its whole address space when the program starts, so a limit on
-// that space does not bind it, and it keeps freed memory for a while.
+// that space has no effect on it. It also keeps freed memory for a while.
 #ifdef __SANITIZE_ADDRESS__
 constexpr bool kMemoryIsMeasured = false;
 #else
 constexpr bool kMemoryIsMeasured = true;
 #endif
 
-/// What a call took: processor time (s) and memory above what there was
-/// (bytes), its own child processes with it.
+/// The cost of a call, with its child processes: processor time (s), and memory above what was in use before
+/// (bytes).
 struct Cost {
   bool ended = false, refused = false;
   double seconds = 0, bytes = 0;
@@ -82,7 +82,7 @@ std::string repeated(int count, const std::string& text) {
   return all;
 }
 
-/// A COLLADA triangle with these numbers for its counts, library and scene.
+/// A COLLADA triangle with the given counts, library and scene.
 std::string dae(const std::string& floats, const std::string& stride, const std::string& triangles,
                 const std::string& scene, const std::string& library = "") {
   return "<?xml version=\"1.0\"?><COLLADA xmlns=\"http://www.collada.org/2005/11/COLLADASchema\" "
@@ -107,7 +107,7 @@ std::string dae(const std::string& floats, const std::string& stride, const std:
 }
 const std::string kInstance = "<node><instance_geometry url=\"#g\"/></node>";
 
-/// Each of twelve nodes holds the one before ten times.
+/// Twelve nodes, each of which contains the one before ten times.
 std::string bomb() {
   std::string library = "<library_nodes><node id=\"n0\"><instance_geometry url=\"#g\"/></node>";
   for (int i = 1; i < 12; ++i)
@@ -116,7 +116,7 @@ std::string bomb() {
   return library + "</library_nodes>";
 }
 
-/// A chain or a bomb of glTF nodes: each holds the next `fold` times.
+/// A chain or a "bomb" of glTF nodes: each node contains the next one `fold` times.
 std::string gltf(int nodes, int fold) {
   std::string text = "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[0]}],\"nodes\":[";
   for (int i = 0; i + 1 < nodes; ++i) {
@@ -182,7 +182,7 @@ TEST_CASE("a hostile mesh costs an error, and memory and time in proportion to i
     const Cost cost = costOf([&] { loadPoints(path); });
     CAPTURE(mesh.name, mesh.content.size(), cost.seconds, cost.bytes);
     CHECK(cost.ended);
-    // The limits of child_process.cpp, and as much again for what the mesh becomes here.
+    // The limits of child_process.cpp, and the same again for the mesh in this process.
     const double size = static_cast<double>(mesh.content.size());
     if (kMemoryIsMeasured) CHECK(cost.bytes <= 2 * (256e6 + 256 * size));
     CHECK(cost.seconds <= 2 * (5 + 5e-6 * size));
@@ -261,7 +261,7 @@ TEST_CASE("a hostile robot description costs memory and time in proportion to it
     const Cost cost = costOf([&] { parseUrdf(text, "hostile.urdf"); });
     CAPTURE(text.substr(0, 300), text.size(), cost.seconds, cost.bytes);
     CHECK(cost.ended);
-    // Measured at up to 50 bytes and 2 us a byte, without sanitizers.
+    // Measured: up to 50 bytes and 2 us per byte, without sanitizers.
     if (kMemoryIsMeasured) CHECK(cost.bytes <= 64e6 + 500 * static_cast<double>(text.size()));
     CHECK(cost.seconds <= 2 + 50e-6 * static_cast<double>(text.size()));
     refused += cost.refused;

@@ -13,8 +13,8 @@ using Eigen::Vector3d;
 
 namespace {
 
-// The smallest width lies along the normal of three points or across two
-// pairs of points: all of these are tried.
+// The smallest width is along the normal of three points, or perpendicular to two pairs of points. All of
+// these are tried.
 double widthOverAll(const Cloud& points) {
   double least = 1e300;
   const auto width = [&](const Vector3d& direction) {

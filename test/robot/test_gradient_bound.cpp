@@ -1,4 +1,4 @@
-// What gradientRateBound() says of bodies that overlap and of polyhedra.
+// The results of gradientRateBound() for bodies that overlap and for polyhedra.
 #include <fcl/geometry/shape/box.h>
 
 #include <catch2/catch.hpp>
@@ -58,14 +58,15 @@ TEST_CASE("a gradient's bound holds in any depth that it is given for") {
       constraints.evaluate(q - kDifferenceStep * qd, row, before);
       const double change = (after - before).norm() / (2 * kDifferenceStep);
       CAPTURE(r, d, qd, change, bound);
-      // The gradient's rounding over the step, and of the step itself the square over that of the radius.
+      // The gradient's rounding divided by the step, and the square of the step divided by that of the
+      // radius.
       CHECK(change <= bound * (1 + 1e-6) + 1e-9);
       nearest = std::max(nearest, change / bound);
       most = std::max(most, bound);
     }
     return most;
   };
-  // Two balls: from -0.1 on the small radius is used up, from -1 the large one too.
+  // Two balls: from -0.1 on the depth exceeds the small radius, from -1 on also the large one.
   for (const double d : {0.1, 0.0, -0.05, -0.1, -0.3, -0.9, -0.99})
     CHECK(std::isfinite(compare(ballOf(0.1), 1, d, 1.1 + d)));
   for (const double d : {-0.05, -0.9}) CHECK(std::isfinite(compare(ballOf(1), 0.1, d, 1.1 + d)));
@@ -73,7 +74,7 @@ TEST_CASE("a gradient's bound holds in any depth that it is given for") {
   CHECK(std::isinf(compare(ballOf(0.5), 0.5, -0.6, 0.4)));
   for (const double d : {0.1, 0.0, -0.2, -0.4})
     CHECK(std::isfinite(compare(std::make_shared<fcl::Boxd>(2, 2, 2), 0.5, d, 1.5 + d)));
-  CHECK(nearest > 0.5);  // else the bound would be too wide to fail
+  CHECK(nearest > 0.5);  // otherwise the bound would be too wide to test anything
 }
 
 TEST_CASE("the gradient of two polyhedra has no bound, and none is not a number") {

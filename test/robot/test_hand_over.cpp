@@ -1,4 +1,4 @@
-// Whole bodies hand over to their convex parts: what the rows say on the way, and that nothing jumps.
+// Whole bodies hand over to their convex parts: the rows' values in between, and that nothing jumps.
 #include <fcl/geometry/shape/box.h>
 
 #include <catch2/catch.hpp>
@@ -25,7 +25,8 @@ Body bodyAt(int link, const std::string& name, const Cloud& cloud, int partOf) {
   return body;
 }
 
-/// Both hands hold an L of two bars, and a box stands in front: parts against parts, and against one body.
+/// Both hands hold an L of two bars, and a box stands in front. So there are parts against parts, and parts
+/// against a single body.
 struct TwoHooks {
   Problem problem = fcl_stpbv::test::problem(robots()[0]);
   std::shared_ptr<RobotGeometry> geometry = std::make_shared<RobotGeometry>();
@@ -49,7 +50,7 @@ struct TwoHooks {
     }
   }
 
-  /// Both arms forward, where hooks and crate meet.
+  /// Both arms stretched forward, where hooks and crate meet.
   VectorXd elbows() const {
     VectorXd q = problem.kinematics->neutral();
     for (const char* joint : {"LARM_JOINT0", "RARM_JOINT0"}) q[problem.kinematics->coordinate(joint)] -= 0.7;
@@ -73,7 +74,7 @@ struct TwoHooks {
   }
 };
 
-// With the whole bodies' rows: 0 hooks, 1 to 4 their parts, 5 hook and crate, 6 and 7 its parts.
+// The rows, with those of the whole bodies: 0 hooks, 1 to 4 their parts, 5 hook and crate, 6 and 7 its parts.
 struct Group {
   int whole, first, last;
 };
@@ -106,7 +107,7 @@ TEST_CASE(
       double least = d[group.whole], truth = 1e9;
       for (int row = group.first; row < group.last; ++row) {
         const double own = dExact[row - 1 - g];
-        // Rounding; deeper than the margins a depth is only as exact as the expanding polytope.
+        // Rounding. Deeper than the margins, a depth is only as exact as the expanding polytope.
         if (apart > -0.004) CHECK(own >= apart - 1e-14);
         CHECK(d[row] <= own + 1e-14);
         if (apart <= kHandOver / 2 && own <= kHandOver / 2) {
@@ -120,8 +121,8 @@ TEST_CASE(
         least = std::min(least, d[row]);
         truth = std::min(truth, own);
       }
-      CHECK(least <= truth + 1e-14);                                 // never clear where it is not
-      CHECK(least >= std::min(truth, constant) - 0.05 * kHandOver);  // what the bend costs at most
+      CHECK(least <= truth + 1e-14);  // never clear where the true distance is not
+      CHECK(least >= std::min(truth, constant) - 0.05 * kHandOver);  // the largest loss by the bend
       if (apart >= kHandOver) {
         CHECK(d[group.whole] == Approx(apart).margin(1e-14));
         CHECK((J.row(group.whole) - jWhole.row(g)).norm() <= 1e-11);
@@ -153,7 +154,7 @@ TEST_CASE("through the hand-over no row and no gradient changes faster than its 
   for (int sweep = 0; sweep < 12; ++sweep) {
     const VectorXd start = hooks.reaching(random), end = hooks.reaching(random);
     constexpr int kSteps = 4000;
-    const VectorXd qd = end - start;  // of one sweep in one second
+    const VectorXd qd = end - start;  // velocity of a sweep that takes one second
     constexpr double step = 1.0 / kSteps;
     VectorXd bound = VectorXd::Zero(8), lastBound = bound;
     for (int k = 0; k <= kSteps; ++k) {
@@ -164,7 +165,7 @@ TEST_CASE("through the hand-over no row and no gradient changes faster than its 
         const double most = std::max(bound[row], lastBound[row]) * step;
         if (!std::isfinite(most)) continue;
         const double changed = (J.row(row) - last.row(row)).norm();
-        // The speed is what J says, and its own change bounds what the trapezoid misses.
+        // The speed is that of J. Its own change bounds the error of the trapezoid rule.
         CHECK(std::abs(rates.d[row] - before.d[row] - step * (rates.speed[row] + before.speed[row]) / 2) <=
               1.05 * most * step * qd.norm() / 4 + 1e-13);
         CHECK(changed <= 1.05 * most + 1e-9);  // the bound itself changes over a step
@@ -200,11 +201,11 @@ TEST_CASE("hand-over: batches, single Hessians and a caller that goes back and f
     batch.evaluate(q, Sequence::independent, other);
     CHECK((d - other).norm() <= 1e-13);
     for (int row = 0; row < 8; ++row) {
-      if (d[row] < 0.002) continue;  // deep ones have no Hessian to compare
+      if (d[row] < 0.002) continue;  // deep rows have no Hessian to compare
       weights = VectorXd::Unit(8, row);
       rows->hessianVector(q, weights, v, along);
       rows->hessian(q, row, full);
-      // The closed form twice, in two orders; by differences where an answer has none.
+      // Two closed forms, in different orders; differences if an answer has none.
       CHECK((full * v - along).norm() <= 1e-9 * (1 + along.norm()));
     }
   }

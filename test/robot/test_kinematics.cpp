@@ -1,4 +1,4 @@
-// Poses and motions of links against differences and known positions.
+// Poses and motions of links, compared with differences and known positions.
 #include <catch2/catch.hpp>
 
 #include "fcl_stpbv/robot/checked_pairs.h"
@@ -28,7 +28,7 @@ Eigen::MatrixXd velocities(const Kinematics& kinematics, const Kinematics::State
 void checkMotions(const Kinematics& kinematics, int count) {
   Random random(1);
   Kinematics::State state = kinematics.makeState(), moved = kinematics.makeState();
-  constexpr double step = 1e-6;  // differences are then good to about step^2 + 1e-16 / step
+  constexpr double step = 1e-6;  // differences are accurate to about step^2 + 1e-16 / step
   double worst = 0;
   for (int trial = 0; trial < count; ++trial) {
     const Eigen::VectorXd q = randomConfiguration(kinematics, random);

@@ -24,7 +24,7 @@ GeometryOptions cachedIn(const std::string& folder) {
   return options;
 }
 
-// A robot of one link with a tetrahedron of this size as its mesh.
+// A robot with one link, whose mesh is a tetrahedron of this size.
 RobotModel tetrahedron(const TemporaryFolder& folder, double size) {
   const std::string s = std::to_string(size);
   put(folder / "mesh.obj",
@@ -87,7 +87,7 @@ TEST_CASE("each mesh gets the radii that its task asks for, and they are kept wi
   task.acceleration = 4;
   task.clearance = 0.05;
   options.advice = task;
-  options.fitr = true;  // the advice comes first
+  options.fitr = true;  // the advice overrides this
   const RobotGeometry cold = loadGeometry(robot, options);
   const Body& body = cold.bodies[0];
   const RadiiAdvice alone = adviseRadii(loadPoints(body.file), task);
@@ -106,7 +106,7 @@ TEST_CASE("each mesh gets the radii that its task asks for, and they are kept wi
   CHECK(warm.bodies[0].advice->acceleration == alone.acceleration);
   CHECK(warm.bodies[0].advice->leastClearance == alone.leastClearance);
 
-  // Another task is another volume; one that cannot be kept is told of, by a warm cache too.
+  // Another task gives another volume. A task that cannot be kept gives a warning, also from a warm cache.
   options.advice->clearance = alone.leastClearance / 2;
   for (const int fromCache : {0, 1}) {
     const RobotGeometry tight = loadGeometry(robot, options);
@@ -122,14 +122,14 @@ TEST_CASE("each mesh gets the radii that its task asks for, and they are kept wi
   options.links[robot.links[0].name] = {0.01, 5};
   CHECK(loadGeometry(robot, options).bodies[0].radii.R == 5);
   options.links.clear();
-  options.advice->clearance = 1e-8;  // less than a period's
+  options.advice->clearance = 1e-8;  // less than the clearance lost in a period
   CHECK_THROWS_WITH(loadGeometry(robot, options), Contains(body.file) && Contains("clearance"));
 }
 
 TEST_CASE("a volume so round that corners of the hull lie inside keeps one that has them") {
   TemporaryFolder folder;
-  // A square of 20 cm with a corner 1 mm above its middle, and one far below:
-  // at R = 0.3 m the former is inside.
+  // A square of 20 cm with a corner 1 mm above its middle, and one far below. At R = 0.3 m the former is
+  // inside the volume.
   put(folder / "mesh.obj",
       "v -0.1 -0.1 0\nv 0.1 -0.1 0\nv 0.1 0.1 0\nv -0.1 0.1 0\nv 0 0 0.001\nv 0 0 -0.1\n"
       "f 1 2 5\nf 2 3 5\nf 3 4 5\nf 4 1 5\nf 2 1 6\nf 3 2 6\nf 4 3 6\nf 1 4 6\n");
@@ -145,7 +145,8 @@ TEST_CASE("a volume so round that corners of the hull lie inside keeps one that 
       CHECK((body.full != nullptr) == (R < 1));
       CHECK(body.volume->vertexCount() == (R < 1 ? 5 : 6));
       if (body.full) CHECK(body.full->volume().vertexCount() == 6);
-      // Over the hull of all points: less than over that of the five by about the millimetre.
+      // The over-cover is over the hull of all points. It is smaller than that over the hull of the five
+      // points, by about a millimetre.
       const double most = overCover(*body.volume).max;
       CHECK(body.cover.max == overCover(*body.volume, loadPoints(body.file)).max);
       if (R < 1) CHECK(body.cover.max < most - 5e-4);
@@ -214,7 +215,7 @@ TEST_CASE("single links have their own radii, and an over-cover budget raises R"
   CHECK_THAT(refusal([&](const std::string&) { loadGeometry(model, options); }, ""), Contains("budget"));
   options = cachedIn("");
   options.radii.R = 100;
-  options.overCoverBudget = 0.0102;  // of which large faces leave 0.2 mm for what R adds
+  options.overCoverBudget = 0.0102;  // large faces leave 0.2 mm of this for the bulge of R
   const TemporaryFolder other;
   const Body large = loadGeometry(tetrahedron(other, 20), options).bodies[0];
   CHECK(large.cover.max <= 0.0102);
@@ -250,7 +251,7 @@ TEST_CASE("an over-cover budget is spent on fewer vertices that still cover ever
   }
   CHECK(after < before / 2);
   const RobotGeometry again = loadGeometry(*model, options);
-  CHECK(again.fromCache >= static_cast<int>(2 * again.bodies.size()));  // full and reduced
+  CHECK(again.fromCache >= static_cast<int>(2 * again.bodies.size()));  // full and reduced volumes
   for (std::size_t i = 0; i < few.bodies.size(); ++i)
     CHECK(sameVolume(*few.bodies[i].volume, *again.bodies[i].volume));
 }
@@ -335,7 +336,7 @@ TEST_CASE("a flat link is its convex hull, and in a pair with a smooth one its g
   CHECK(constraints.answer(0).status == DistanceStatus::exact);
   CHECK(constraints.answer(0).continuous);
   constexpr double kStep =
-      1e-6;  // a central difference is then good to 1e-10 / 1e-6 of rounding and h^2 of curvature
+      1e-6;  // a central difference is then accurate to rounding of 1e-10 / 1e-6, and curvature times h^2
   for (int i = 0; i < n; ++i) {
     Eigen::VectorXd moved = q;
     moved[i] += kStep;

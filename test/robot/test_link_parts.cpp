@@ -1,4 +1,4 @@
-// A link's convex parts are the same from the cache, from any number of threads, and from one thread alone.
+// A link's convex parts are the same from the cache, from any number of threads, and from a single thread.
 #include <catch2/catch.hpp>
 #include <filesystem>
 
@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// An L, a bowl and a box, each a link with a mesh.
+// An L, a bowl and a box, each the mesh of a link.
 std::shared_ptr<const RobotGeometry> threeLinks(const TemporaryFolder& folder) {
   saveMesh(folder / "l.obj", lShape());
   saveMesh(folder / "bowl.obj", bowl(0.1, 4));

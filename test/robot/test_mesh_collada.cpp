@@ -1,4 +1,4 @@
-// COLLADA whose parts contradict each other is refused with its line; sound COLLADA is read.
+// COLLADA files whose contents contradict each other are refused with the line; valid COLLADA is read.
 #include <catch2/catch.hpp>
 
 #include "fcl_stpbv/error.h"
@@ -11,7 +11,7 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-// A triangle with texture coordinates, by way of a node of the library.
+// A triangle with texture coordinates, placed by a node of the library.
 const std::string kSound = R"(<?xml version="1.0"?>
 <COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
 <asset><unit meter="1"/></asset>
@@ -205,7 +205,7 @@ TEST_CASE("a COLLADA mesh that its transforms bring back from far away is refuse
   const TemporaryFolder folder;
   put(folder / "t.dae", text);
   CHECK_THAT(refusal([](const std::string& path) { loadPoints(path); }, folder / "t.dae"), Contains(message));
-  // A camera may be anywhere.
+  // A camera may be at any place.
   put(folder / "t.dae", changed(kSound, {node,
                                          "<node id=\"c\"><translate>1e6 0 0</translate><translate>-1e6 0 "
                                          "0</translate><instance_camera url=\"#c\"/></node>" +

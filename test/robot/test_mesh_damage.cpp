@@ -1,4 +1,4 @@
-// Damaged meshes are refused with their line, and a mesh is no way to other files.
+// Damaged meshes are refused with the line, and a mesh cannot be used to read other files.
 #include <sys/stat.h>
 
 #include <catch2/catch.hpp>

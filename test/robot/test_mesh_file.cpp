@@ -1,4 +1,4 @@
-// Meshes in and out: every format gives the same points, broken files are refused by name.
+// Reading and writing meshes: every format gives the same points, and the error for a damaged file names it.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -62,7 +62,8 @@ std::string ply() {
       "", "3", 0);
 }
 
-// Two instances of the tetrahedron, the second moved and turned by a quarter about z, below another node.
+// Two instances of the tetrahedron. The second one is moved and turned by a quarter about z, below another
+// node.
 std::string collada(const std::string& asset) {
   std::string positions, indices;
   for (int i = 0; i < 4; ++i) positions += corner(i) + " ";
@@ -93,7 +94,7 @@ bool samePoints(std::vector<Vector3d> a, std::vector<Vector3d> b, double toleran
          std::all_of(b.begin(), b.end(), [&](const Vector3d& p) { return near(p, a); });
 }
 
-// Twice the mesh's enclosed volume, positive where its triangles face outwards.
+// The mesh's enclosed volume, positive if its triangles face outwards.
 double signedVolume(const TriangleMesh& mesh) {
   double sum = 0;
   for (const auto& t : mesh.triangles) {
@@ -146,7 +147,7 @@ TEST_CASE("a mesh that its unit or scale makes smaller than an atom is refused")
   }
   const auto load = [](const std::string& path) { loadPoints(path); };
   CHECK(refusal(load, folder / "nano.dae").find("is smaller than 1e-9 m") != std::string::npos);
-  CHECK(loadPoints(folder / "t.obj", {1e-9, 1e-30, 1e-30}).size() == 4);  // just long enough
+  CHECK(loadPoints(folder / "t.obj", {1e-9, 1e-30, 1e-30}).size() == 4);  // long enough, but only just
 }
 
 TEST_CASE("a mesh so far from its origin that its shape would be rounded is refused") {
@@ -342,7 +343,7 @@ TEST_CASE(
     for (const Vector3d& p : points) CHECK((p.minCoeff() > 0.2 && p.maxCoeff() < 0.6));
     return message;
   };
-  const std::string feed = "\n\x10\x80\x3e";  // 0.25 and a little
+  const std::string feed = "\n\x10\x80\x3e";  // slightly above 0.25
   CHECK(read("\n", feed).find(folder / "b.ply:7: the values in binary begin with a byte") == 0);
   CHECK(read("\n", "\r" + feed.substr(1)) == "");
   CHECK(read("\n", " " + feed.substr(1)) == "");
@@ -351,7 +352,7 @@ TEST_CASE(
 
 TEST_CASE("a polygon that cannot be split is refused, not read with a part of its triangles") {
   const TemporaryFolder folder;
-  // A comb in some plane: assimp leaves out 2 of its 12 m^2.
+  // A comb in a tilted plane: assimp leaves out 2 of its 12 m^2.
   put(folder / "comb.obj",
       "v 0 -0 -0\n"
       "v 0.02403695 -0.3935097 -0.9190062\n"
@@ -387,8 +388,8 @@ TEST_CASE("the humanoid's meshes and their polyhedra are the same bodies") {
     std::string name = entry.path().filename().string();
     name.resize(name.size() - std::string("-ch.txt").size());
     INFO(name);
-    // Shipped for the same links by the robot's authors: support functions agree,
-    // so up_axis was rightly left aside.
+    // The robot's authors supply these polyhedra for the same links. The support functions agree, so it is
+    // right that up_axis is ignored.
     const std::vector<Vector3d> polyhedron = loadPoints(entry.path().string());
     const std::vector<Vector3d> mesh = loadPoints(robot + "/meshes/" + name + ".dae");
     const auto height = [](const std::vector<Vector3d>& points, const Vector3d& n) {

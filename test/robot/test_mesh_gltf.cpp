@@ -1,4 +1,5 @@
-// glTF that assimp would read as another shape is refused and says what would work; sound glTF is read.
+// glTF that assimp would read as another shape is refused with a message that says what would work. Valid
+// glTF is read.
 #include <catch2/catch.hpp>
 #include <cstdint>
 #include <filesystem>
@@ -69,7 +70,7 @@ std::string withChange(std::string text, const GltfChange& change) {
   return text.replace(at, change.from.size(), change.to);
 }
 
-// The message, and in `mesh` what was read.
+// Loads a glTF into `mesh`. @returns the error message.
 std::string loadedGltf(const std::string& name, const std::string& content, const std::string& bin,
                        TriangleMesh& mesh) {
   const TemporaryFolder folder;

@@ -1,5 +1,5 @@
-// OBJ, STL, OFF and PLY as text: what assimp would leave out, or take for something else, is refused with its
-// line; what it reads right is read.
+// OBJ, STL, OFF and PLY as text: what assimp would ignore or misread is refused with the line; what it reads
+// correctly is read.
 #include <catch2/catch.hpp>
 
 #include "fcl_stpbv/error.h"

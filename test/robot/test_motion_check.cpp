@@ -1,4 +1,5 @@
-// Motions of robots proven free: against dense samples of every pair, a closed form, and joints of all kinds.
+// Motions of robots that are proven free: compared with dense samples of every pair and a closed form, with
+// joints of all kinds.
 #include <fcl/geometry/bvh/BVH_model.h>
 #include <fcl/geometry/geometric_shape_to_BVH_model.h>
 #include <fcl/geometry/shape/box.h>
@@ -24,14 +25,14 @@ using Eigen::VectorXd;
 
 namespace {
 
-/// Least of all rows at q, from the constraints, which know nothing of motions.
+/// The least of all rows at q, from the constraints, which do not use motions.
 double leastAt(CollisionConstraints& rows, const VectorXd& q) {
   VectorXd d(rows.rows());
   rows.evaluate(q, d);
   return d.minCoeff();
 }
 
-/// Chains with every type of joint, a mimic one among them, and balls at their ends.
+/// Chains with every type of joint, including a mimic joint, and balls at their ends.
 const char* const kJoints = R"(<robot name="joints">
   <link name="root"><collision><geometry><box size="0.2 0.2 0.2"/></geometry></collision></link>
   <link name="a"><collision><geometry><sphere radius="0.05"/></geometry></collision></link>
@@ -93,7 +94,7 @@ Scene everyJoint(BaseMotion base) {
   return scene;
 }
 
-/// A random motion's verdict against samples; counts how it ended.
+/// Compares a random motion's verdict with samples, and counts the verdicts.
 void compare(MotionCheck& check, CollisionConstraints& rows, const VectorXd& q0, const VectorXd& q1,
              double margin, int samples, int& free, int& hits) {
   const double tolerance = 1e-5;
@@ -230,7 +231,7 @@ TEST_CASE("a link that slides over a flat mesh takes few looks, however near, an
           CHECK(sinks.verdict == MotionVerdict::contact);
           CHECK(std::abs(sinks.until - 0.5) <= 1e-6 + 1e-15 / room);
         }
-      // It is free at the middle, in contact at the end.
+      // It is free at the middle and in contact at the end.
       CHECK_FALSE(floor.isMotionFree(Eigen::Vector3d(-0.1, 0.031, 0), Eigen::Vector3d(0.1, 0.0295, 0)));
     }
   }
@@ -267,8 +268,9 @@ TEST_CASE("what is not finite is not free, and pairs that do not exist are refus
   CHECK_FALSE(check.isMotionFree(q, VectorXd::Zero(1)));
   CHECK_THROWS_AS(check.answer(-1, q), Error);
   CHECK_THROWS_AS(check.answer(static_cast<int>(scene.pairs.size()), q), Error);
+  // A motion without checked pairs is not free.
   CHECK_THROWS_WITH(MotionCheck(scene.kinematics, scene.geometry, {}),
-                    Catch::StartsWith("MotionCheck: no pairs are given"));  // nothing checked is not free
+                    Catch::StartsWith("MotionCheck: no pairs are given"));
   CHECK_THROWS_AS(MotionCheck(scene.kinematics, scene.geometry, {{0, 99, false}}), Error);
   CHECK_THROWS_AS(MotionCheck(scene.kinematics, scene.geometry, {{0, 3, true}}, scene.obstacles), Error);
 }
@@ -281,7 +283,7 @@ TEST_CASE("what rounding may add holds for a robot that comes from far away") {
   q1[0] = 1e6;
   REQUIRE(chains.begin(q0, q1));
   chains.place(0.5);  // at the origin
-  // q(t) is a sum of numbers of 1e6, rounded twice.
+  // q(t) is a sum of numbers of 1e6, which is rounded twice.
   CHECK(chains.slack() >= 2 * 1e6 * std::numeric_limits<double>::epsilon());
 }
 
@@ -307,7 +309,7 @@ TEST_CASE("a half space that a link carries is not proven free of what it turns 
   const VectorXd zero = VectorXd::Zero(1);
   MotionCheck turning = carried("revolute");
   CHECK(turning.isFree(zero));
-  for (const double angle : {-0.25, -1.0, -3.0}) {  // at 0.2 rad it meets the ball, at 3 rad it has left it
+  for (const double angle : {-0.25, -1.0, -3.0}) {  // at 0.2 rad it meets the ball, at 3 rad it is past it
     const MotionBracket first = turning.firstContact(zero, VectorXd::Constant(1, angle));
     CHECK(first.verdict != MotionVerdict::free);
     CHECK(first.from <= 0.21 / -angle);

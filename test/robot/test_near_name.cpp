@@ -1,4 +1,4 @@
-// Which known name a misspelt one is taken for.
+// The known name that is suggested for a misspelt one.
 #include <catch2/catch.hpp>
 
 #include "fcl_stpbv/robot/near_name.h"
@@ -9,12 +9,12 @@ TEST_CASE("a misspelt name is near the one that fewest letters have to be change
   const std::vector<std::string> known{"base", "ELBOW_JOINT", "elbow_link", "ee", "q"};
   CHECK(nearName("elbow_lnk", known) == "elbow_link");
   CHECK(nearName("Elbow_Joint", known) == "ELBOW_JOINT");  // upper and lower case are the same
-  CHECK(nearName("link", known) == "elbow_link");          // a part of it
-  CHECK(nearName("JOINT", known) == "ELBOW_JOINT");        // a part, too
-  CHECK(nearName("panda_base", known) == "base");          // it is a part
+  CHECK(nearName("link", known) == "elbow_link");          // it is a part of the name
+  CHECK(nearName("JOINT", known) == "ELBOW_JOINT");        // it is a part of the name
+  CHECK(nearName("panda_base", known) == "base");          // the name is a part of it
   CHECK(nearName("left/elbow_joint", known) == "ELBOW_JOINT");
-  CHECK(nearName("knee", known).empty());  // holds "ee" by chance
-  CHECK(nearName("r", known).empty());     // another letter is another name
+  CHECK(nearName("knee", known).empty());  // contains "ee" by chance
+  CHECK(nearName("r", known).empty());     // one letter instead of another is another name
   CHECK(nearName("Q", known) == "q");
   CHECK(nearName("", known).empty());
   CHECK(nearName("base", {"", std::string(200, 'b')}).empty());

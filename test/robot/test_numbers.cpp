@@ -1,5 +1,5 @@
-// Numbers that are none, infinite or out of range: a query takes them for the worst, an option is refused by
-// name. One section for each place where they come in.
+// Numbers that are NaN, infinite or out of range: queries treat them as the worst case, options are refused
+// by name. One section for each place where they can occur.
 #include <fcl/geometry/shape/box.h>
 
 #include <catch2/catch.hpp>
@@ -100,7 +100,8 @@ TEST_CASE("Options that are not finite or out of range are refused by name") {
     CHECK_THROWS_AS(StpBv::build(cloud, {bad, 10}), Error);
     CHECK_THROWS_AS(StpBv::build(cloud, {0.01, bad}), Error);
     CHECK_THROWS_AS(StpBv::smallestR(cloud, bad), Error);
-    if (bad != kInf) CHECK_THROWS_AS(reduce(cloud, {0.01, 10}, bad), Error);  // infinite: any
+    // An infinite budget allows any over-cover.
+    if (bad != kInf) CHECK_THROWS_AS(reduce(cloud, {0.01, 10}, bad), Error);
     CHECK_THROWS_WITH(tessellate(*volume, bad), Catch::Contains("angle"));
     PartsOptions parts;
     parts.excess = bad;
@@ -119,7 +120,7 @@ TEST_CASE("Options that are not finite or out of range are refused by name") {
     CHECK_THROWS_WITH(loadGeometry(*small.model, geometry), Catch::Contains("over-cover: got"));
     ConstraintOptions influence;
     influence.influence = bad;
-    if (bad != kInf)  // which is the default
+    if (bad != kInf)  // inf is the default
       CHECK_THROWS_AS(CollisionConstraints(small.kinematics, small.geometry, small.pairs, influence), Error);
     DamperOptions damper;
     damper.period = bad;

@@ -1,4 +1,4 @@
-// Reasons for leaving pairs out: on robots where they are plain to see, and on real ones.
+// Reasons for leaving pairs out: on robots for which they are obvious, and on real ones.
 #include <fcl/geometry/shape/sphere.h>
 
 #include <algorithm>
@@ -23,8 +23,8 @@ using namespace fcl_stpbv::test;
 
 namespace {
 
-// Three bars of 0.2 m in a row on z axes 0.25 m apart; each joint turns by 1 rad either way, so that the
-// third one comes near the first but cannot touch it.
+// Three bars of 0.2 m in a row, on z axes 0.25 m apart. Each joint turns by up to `limit` in both directions.
+// At 1 rad the third bar comes near the first one but cannot touch it.
 Arm bars(double limit) {
   const TemporaryFolder folder;
   std::string bar;
@@ -76,7 +76,7 @@ TEST_CASE("a proof without a limit of boxes is a proof, and one that no box can 
   options.samples = 10;
   options.proofBoxes = std::numeric_limits<long>::max();
   CHECK(pairList(arm.kinematics, arm.geometry, nullptr, options)[1].reason == PairReason::neverProven);
-  // Nothing bounds bodies across a planar joint.
+  // There is no bound for bodies across a planar joint.
   const std::string ball = "<sphere radius=\"0.1\"/>";
   const auto model = std::make_shared<const RobotModel>(
       parseUrdf(robot(link("a", ball) + link("m", ball) + link("b", ball) +
@@ -93,7 +93,7 @@ TEST_CASE("a proof without a limit of boxes is a proof, and one that no box can 
 }
 
 TEST_CASE("adjacent links that an SRDF has checked are searched like all others") {
-  // Two boxes on either side of a joint, apart at zero; at -2 rad one is where the other is.
+  // Two boxes on either side of a joint, apart at zero. At -2 rad one is where the other is.
   const std::string beside =
       "<collision><origin xyz=\"0.3 0 0\"/><geometry><box size=\"0.4 0.1 0.1\"/>"
       "</geometry></collision></link>";
@@ -113,7 +113,8 @@ TEST_CASE("adjacent links that an SRDF has checked are searched like all others"
   CHECK(search.distance(searched(&checked).closest) == Approx(searched(&checked).minDistance).margin(1e-12));
   for (const Srdf* srdf : {static_cast<const Srdf*>(nullptr), static_cast<const Srdf*>(&leftOut)}) {
     CHECK(searched(srdf).reason == PairReason::adjacent);
-    CHECK(searched(srdf).minDistance > 0);  // in the neutral configuration, and nowhere else is looked
+    // Found in the neutral configuration, the only one that is examined.
+    CHECK(searched(srdf).minDistance > 0);
   }
 }
 
@@ -191,7 +192,7 @@ TEST_CASE("what is proven never stays apart in samples and descents of another s
 }
 
 TEST_CASE("a proven pair has the closest configuration of all, not of one valley") {
-  // A wheel with two knobs at +-90 degrees passes a ball: the larger one comes nearer.
+  // A wheel with two knobs at +-90 degrees passes a ball. The larger knob comes nearer.
   const auto knob = [](const std::string& at, const std::string& radius) {
     return "<collision><origin xyz=\"" + at + "\"/><geometry><sphere radius=\"" + radius +
            "\"/></geometry></collision>";
@@ -216,7 +217,7 @@ TEST_CASE("a proven pair has the closest configuration of all, not of one valley
 
 TEST_CASE("robots of many pairs and coordinates get fewer random descents for each pair") {
   const auto closestOf = [](int links, int randomDescents) {
-    std::string parts = link("base");  // discs one above the other, which never meet
+    std::string parts = link("base");  // discs above each other, which never meet
     for (int i = 0; i < links; ++i) {
       const std::string number = std::to_string(i), height = std::to_string(0.3 * i);
       parts += link("l" + number, "<box size=\"0.3 0.2 0.1\"/>") +
@@ -237,7 +238,8 @@ TEST_CASE("robots of many pairs and coordinates get fewer random descents for ea
     }
     return distances;
   };
-  CHECK(closestOf(60, 3) == closestOf(60, 1));  // 1770 pairs of 180 coordinates: a third, that is one of them
+  // 1770 pairs with 180 coordinates: a third of the descents, which is one.
+  CHECK(closestOf(60, 3) == closestOf(60, 1));
   CHECK(closestOf(10, 3) != closestOf(10, 1));
 }
 
@@ -252,7 +254,7 @@ TEST_CASE("pairs that are searched again come out as in a search of all, the oth
   std::set<LinkPair> changed;
   for (std::size_t e = 0; e < all.size(); ++e) {
     if (e % 3 != 0) continue;
-    before[e].reason = PairReason::user;  // what a search would not give here
+    before[e].reason = PairReason::user;  // a value that a search would not give here
     before[e].minDistance = before[e].security = 1e9;
     before[e].closest = Eigen::VectorXd();
     if (e % 2 == 0) changed.insert(all[e]);
@@ -334,7 +336,7 @@ TEST_CASE("the list is the same for the same seed, sorted, and keeps the user's 
 namespace {
 
 // A ball, a bar that turns about its middle, a ball on the bar that touches the first one at zero and swings
-// away, and one that stays in the first one however it turns.
+// away, and a ball that stays inside the first one at any angle.
 Arm folded() {
   const auto turn = [](const std::string& name, const std::string& parent, const std::string& child,
                        const std::string& origin) {
@@ -365,7 +367,7 @@ const PairEntry& entryOf(const Arm& arm, const std::vector<PairEntry>& list, con
 
 TEST_CASE("what collides in the neutral posture stays checked where some posture clears it") {
   const Arm arm = folded();
-  for (const int samples : {1, 50}) {  // one sample leaves it to the climb
+  for (const int samples : {1, 50}) {  // with one sample only the climb can find it
     PairListOptions options;
     options.samples = samples;
     const std::vector<PairEntry> list = pairList(arm.kinematics, arm.geometry, nullptr, options);
@@ -437,7 +439,7 @@ TEST_CASE("what is clear in the neutral posture stays checked where nearly all o
 
 TEST_CASE(
     "few samples do not say that a pair always collides, nor half a turn that a geared one never does") {
-  // The sphere hits the box near half a turn of its arm, which turns at a part of the wheel's speed.
+  // The sphere hits the box near half a turn of its arm, which turns at a fraction of the wheel's speed.
   const std::string drive =
       link("base", "<box size=\"0.1 0.1 0.1\"/>") + link("drive") + link("arm", "<sphere radius=\"0.05\"/>");
   const auto armOf = [&](const std::string& ratio) {
@@ -466,7 +468,7 @@ TEST_CASE(
     CAPTURE(ratio, reasonText(entry.reason));
     CHECK(entry.reason == PairReason::sometimes);
   }
-  // Clear in the neutral posture alone, or nearly.
+  // Clear in the neutral posture only, or almost only there.
   const Arm bar = bars(3.1);
   for (const int samples : {1, 5, 59}) {
     PairListOptions options;
@@ -499,11 +501,11 @@ TEST_CASE("what has no limits is searched as far as the robot reaches") {
   };
   for (const char* type : {"planar", "floating"}) {
     CAPTURE(type);
-    // A shelf in the far corner of a hall, and the same a hundred times as large.
+    // A shelf in the far corner of a hall, and the same scene a hundred times as large.
     CHECK(reasonFor(block("200 100 0", "1 1 1"), "<box size=\"1 1 1\"/>", type) == PairReason::sometimes);
     CHECK(reasonFor(block("20000 10000 0", "100 100 100"), "<box size=\"100 100 100\"/>", type) ==
           PairReason::sometimes);
-    // A slot that is nowhere as wide as 1 m away from where the robot stands, and open 4.5 m away.
+    // A slot that is narrow within 1 m of the robot, and open 4.5 m away.
     CHECK(reasonFor(block("0 2.65 0", "9 5 9") + block("0 -2.65 0", "9 5 9"), "<box size=\"0.2 0.2 0.2\"/>",
                     type) == PairReason::sometimes);
   }
@@ -518,8 +520,8 @@ TEST_CASE("another neutral posture is another default, and a better one is sugge
   const std::vector<PairEntry> list = pairList(arm.kinematics, arm.geometry, nullptr, options);
   CHECK(entryOf(arm, list, "a", "c").reason == PairReason::sometimes);
   Srdf srdf;
-  // What is no posture, or only a part of one that another group closes, is not suggested, and hinders
-  // nothing.
+  // An invalid posture, or only a part of one that contradicts another group, is not suggested, and does not
+  // prevent other suggestions.
   srdf.states = {{"wrong", "arm", {{"j2", {1.0, 2.0}}}},
                  {"half", "arm", {{"j2", {1.0}}}},
                  {"half", "other", {{"j1", {0.0}}}},

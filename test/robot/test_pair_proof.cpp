@@ -1,4 +1,5 @@
-// Proofs over joint boxes: no bound above a sample's distance, pieces that make the same whole in any order.
+// Proofs over joint boxes: no bound is above a sample's distance, and pieces give the same whole in any
+// order.
 #include <fcl/geometry/shape/sphere.h>
 
 #include <algorithm>
@@ -37,7 +38,7 @@ ProofScene humanoid() {
                     std::make_shared<const RobotGeometry>(std::move(loaded.geometry)), {}, 0);
 }
 
-// A chain of links with a turning or sliding joint between each two; each, or each of so many, has the shape.
+// A chain of links with a turning or sliding joint between each two. Every `each`-th link has the shape.
 ProofScene snake(int links, const std::string& shape, int each = 1) {
   std::string text = link("l0", shape);
   for (int i = 1; i < links; ++i) {
@@ -63,7 +64,7 @@ TEST_CASE("no distance in a box is below the box's bound") {
   const BoundTrials simple = tryBounds(primitives, movingPairs(primitives), 3000, random);
   CHECK(simple.samples == 24000);
   CHECK(simple.violations == 0);
-  CHECK(simple.useful > 0.2);  // or it would say nothing
+  CHECK(simple.useful > 0.2);  // otherwise the test would show nothing
   const ProofScene robot = humanoid();
   const BoundTrials meshes = tryBounds(robot, movingPairs(robot), 2000, random);
   CHECK(meshes.violations == 0);
@@ -76,11 +77,11 @@ TEST_CASE("bounds hold across more joints than third-order terms are weighed for
   const BoundTrials trials = tryBounds(scene, {{0, 39}, {3, 36}, {0, 27}, {10, 39}}, 1500, random);
   CHECK(trials.samples == 12000);
   CHECK(trials.violations == 0);
-  CHECK(trials.useful > 0.1);  // or it would say nothing
+  CHECK(trials.useful > 0.1);  // otherwise the test would show nothing
 }
 
 TEST_CASE("bounds hold where a joint follows another one with the multiplier 0") {
-  // Its frame stays where it is while the joint that it follows turns `b` towards `c`.
+  // The joint's frame does not move while the joint that it follows turns `b` towards `c`.
   const std::string bar = "<box size=\"0.1 0.1 0.6\"/>";
   const ProofScene scene = proofSceneOf(robot(
       link("a") + link("b", bar) + link("c", bar) +
@@ -122,7 +123,7 @@ TEST_CASE("a proof in pieces is the proof in one, and its pieces are put togethe
     }
     CHECK(same(whole, resumed));
     proven += whole.proven();
-    // Each box of an early state on its own, as workers would have them.
+    // Each box of an early state separately, as workers would get them.
     std::vector<PairProof> pieces;
     for (const JointBox& box : provePair(scene, pair, start.open, 20).open)
       pieces.push_back(provePair(scene, pair, {box}, 50));
@@ -161,14 +162,14 @@ TEST_CASE("an arm's proof against the other arm takes few boxes: products of tur
   const ProofScene scene = humanoid();
   const LinkPair pair = pairNamed(scene, "RARM_LINK2", "LARM_LINK4");
   const PairProof proof = provePair(scene, pair, unproven(scene, pair).open, 2500);
-  CHECK(proof.proven());  // in 1,707 boxes; bounded one by one, the products take 3,749
+  CHECK(proof.proven());  // in 1,707 boxes; if the products are bounded one by one, 3,749
 }
 
 TEST_CASE(
     "one coordinate that turns and slides a body: no bound is above a distance, beyond half a turn either "
     "way") {
-  // A rack carries the pinion that drives it, with a ball at its rim, towards a wall: the ball's centre is at
-  // x = c t - l sin(t), which grows by more past a quarter turn than the sine says.
+  // A rack carries the pinion that drives it, with a ball at the pinion's rim, towards a wall. The ball's
+  // centre is at x = c t - l sin(t), which grows by more past a quarter turn than the sine shows.
   Random random(6);
   double highest = -1;
   for (int i = 0; i < 300; ++i) {
@@ -194,7 +195,7 @@ TEST_CASE(
     CHECK(bound <= least + 1e-12);
     highest = std::max(highest, bound - least);
   }
-  CHECK(highest > -0.01);  // the bound is near what it bounds
+  CHECK(highest > -0.01);  // the bound is close to the distance
 }
 
 TEST_CASE("a proof of links without bodies, of what does not exist and of other boxes is refused") {
@@ -208,7 +209,7 @@ TEST_CASE("a proof of links without bodies, of what does not exist and of other 
   const JointBox wide{Eigen::VectorXd::Zero(9), Eigen::VectorXd::Ones(9)};
   CHECK_THROWS_AS(distanceBound(scene, pair, wide), Error);
   CHECK_THROWS_AS(provePair(scene, pair, {wide}, 1), Error);
-  JointBox turned = unproven(scene, pair).open[0];  // holds nothing, which would be proven at once
+  JointBox turned = unproven(scene, pair).open[0];  // an empty box, which would be proven at once
   turned.lower.swap(turned.upper);
   CHECK_THROWS_WITH(provePair(scene, pair, {turned}, 1), Catch::Matchers::Contains("lower limit above"));
   CHECK_THROWS_AS(distanceBound(scene, pair, turned), Error);
@@ -219,7 +220,7 @@ TEST_CASE("a proof of links without bodies, of what does not exist and of other 
 }
 
 TEST_CASE("what bodies are too thin for is proven in one box, what they are not is found") {
-  // Two plates that slide and turn through each other: at most 0.35 m deep, where they cross.
+  // Two plates that slide and turn through each other. They are at most 0.35 m deep, where they cross.
   const std::string plate = "<box size=\"0.1 0.6 0.4\"/>";
   const std::string text =
       robot(link("a", plate) + link("m") + link("b", plate) + joint("x", "prismatic", "a", "m") +
@@ -233,7 +234,7 @@ TEST_CASE("what bodies are too thin for is proven in one box, what they are not 
   CHECK(deep.proven());
   CHECK(deep.boxes == 1);
   CHECK(proofAt(-0.099).collision);
-  // No depth that a search finds is beyond the bound.
+  // No depth that a search finds may exceed the bound.
   const ProofScene primitives = primitiveScene();
   Random random(11);
   for (const LinkPair& pair : movingPairs(primitives)) {
@@ -310,7 +311,7 @@ TEST_CASE(
 }
 
 TEST_CASE("a box in which a joint slides beyond its limits is not proven by levers within them") {
-  // The ball on the slide meets the other one 2.9 m beyond the slide's limits.
+  // The ball on the slide would meet the other one 2.9 m beyond the slide's limits.
   const std::string ball = "<geometry><sphere radius=\"0.1\"/></geometry></collision></link>";
   const ProofScene scene = proofSceneOf(robot(
       "<link name=\"a\"><collision><origin xyz=\"0 3 0\"/>" + ball + link("m") +
@@ -321,7 +322,7 @@ TEST_CASE("a box in which a joint slides beyond its limits is not proven by leve
 }
 
 TEST_CASE("no bound is above a distance where a mimic joint has made many turns, whose angle is rounded") {
-  // `b` swings 0.5 m around the axis, the wall's ball is 2 m away.
+  // `b` swings 0.5 m around the axis. The wall's ball is 2 m away.
   const std::string ball = "<geometry><sphere radius=\"0.1\"/></geometry></collision></link>";
   const double multiplier = 0.7371234567891234;
   const ProofScene scene = proofSceneOf(
@@ -343,5 +344,5 @@ TEST_CASE("no bound is above a distance where a mimic joint has made many turns,
     CHECK(bound <= truth);
     highest = std::max(highest, static_cast<double>(bound - truth));
   }
-  CHECK(highest > -1e-8);  // the bound is near what it bounds
+  CHECK(highest > -1e-8);  // the bound is close to the distance
 }

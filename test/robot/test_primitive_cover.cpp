@@ -1,4 +1,5 @@
-// Smooth covers of primitives: they contain them, exceed them by no more than they say, and end the jumps.
+// Smooth covers of primitives: they contain the primitives, exceed them by at most the stated excess, and
+// remove the jumps.
 #include <fcl/geometry/shape/box.h>
 #include <fcl/geometry/shape/capsule.h>
 #include <fcl/geometry/shape/cone.h>
@@ -21,7 +22,7 @@ using Eigen::Vector3d;
 
 namespace {
 
-// A primitive, its support function from its definition, and the least margin its cover promises.
+// A primitive, its support function from the definition, and the least margin that its cover promises.
 struct Primitive {
   std::string name;
   std::shared_ptr<fcl::CollisionGeometryd> geometry;
@@ -60,7 +61,7 @@ std::vector<Primitive> primitives(Random& random) {
 }
 
 // Largest change of the distance's derivative by the second body's twist in one of `steps` steps, while it
-// turns through parallel about the line of centres.
+// turns about the line of centres through a parallel position.
 double largestStep(const fcl::CollisionGeometryd& a, const fcl::CollisionGeometryd& b, int steps) {
   constexpr double kAngle = 0.05;
   double most = 0;
@@ -107,7 +108,7 @@ TEST_CASE(
       CHECK(least >= (p.keepsMargin ? radii.r : 0) - rounding);
       CHECK(most <= cover.excess.max + rounding);
       if (p.name == "sphere") CHECK(cover.excess.max == 0);
-      // What a cylinder's and a cone's figure has too much is the polygon's corners.
+      // For a cylinder and a cone, the stated excess also contains the polygon's corners.
       if (p.name == "box" || p.name == "capsule") CHECK(most >= 0.98 * cover.excess.max - rounding);
       CHECK(cover.excess.mean <= cover.excess.max);
     }
@@ -134,7 +135,7 @@ TEST_CASE(
   for (const fcl::CollisionGeometryd* a : flat) {
     for (const fcl::CollisionGeometryd* b : flat) {
       INFO(a->getNodeType() << " " << b->getNodeType());
-      CHECK(largestStep(*a, *b, 10000) > 0.05);  // the witness point goes from end to end: 0.3 m of arm
+      CHECK(largestStep(*a, *b, 10000) > 0.05);  // the witness point moves from end to end: 0.3 m of lever
       const PrimitiveCover cover = primitiveCover(*a, {0.01, 10});
       const StpBvGeometry smooth(cover.volume);
       const double coarse = largestStep(smooth, *b, 1000), fine = largestStep(smooth, *b, 10000);

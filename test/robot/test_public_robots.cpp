@@ -1,5 +1,5 @@
-// JVRC-1 from its URDF to its distances: its volumes beside those of the polyhedra published for it, its
-// distances beside a reference that shares no code, forward kinematics included.
+// JVRC-1 from its URDF to its distances. Its volumes are compared with those of the polyhedra published for
+// it, its distances with a reference that shares no code, including forward kinematics.
 #include <catch2/catch.hpp>
 #include <filesystem>
 
@@ -16,7 +16,7 @@ namespace {
 
 using Isometry3L = Eigen::Transform<long double, 3, Eigen::Isometry>;
 
-// Poses of all links, joint by joint from the root, in long double. For turning joints.
+// Poses of all links in long double, computed from the root. Only for turning joints.
 std::vector<Isometry3L> posesOf(const Kinematics& kinematics, const Eigen::VectorXd& q) {
   const RobotModel& model = kinematics.robot();
   std::vector<Isometry3L> poses(model.links.size(), Isometry3L::Identity());
@@ -33,7 +33,7 @@ std::vector<Isometry3L> posesOf(const Kinematics& kinematics, const Eigen::Vecto
   return poses;
 }
 
-// The points behind a body's volume, in the world.
+// The points from which a body's volume was built, in the world.
 ReferenceBody inWorld(const Body& body, const Cloud& points, const Isometry3L& link) {
   ReferenceBody reference{{}, body.volume->radii().r, body.volume->radii().R};
   const Isometry3L pose = link * body.pose.cast<long double>();
@@ -62,14 +62,16 @@ TEST_CASE("a humanoid's meshes and the polyhedra published for them give the sam
     INFO(name);
     const StpBv::Ptr mesh = StpBv::build(loadPoints(folder + "/meshes/" + name + ".dae"));
     const StpBv::Ptr polyhedron = StpBv::build(loadPoints(entry.path().string()));
-    // The .dae files' coordinates end at the sixth digit, the polyhedra's do not: up to 0.87e-6 m a vertex.
+    // The coordinates of the .dae files have six digits, those of the polyhedra more: up to 0.87e-6 m per
+    // vertex.
     CHECK(surfaceDifference(*mesh, *polyhedron) < 0.87e-6);
     CHECK(withoutPartner(*mesh, *polyhedron, 1e-6) == 0);
     others += withoutPartner(*polyhedron, *mesh, 1e-6);
     ++links;
   }
   CHECK(links == 35);
-  // Vertices almost inside a face, which one set of digits has in and the other has out (docs/robot.md).
+  // Vertices that are almost inside a face. With one number of digits they are vertices, with the other they
+  // are not (docs/robot.md).
   CHECK(others == 5);
 }
 
@@ -104,7 +106,7 @@ TEST_CASE("a humanoid's distances in 1000 random poses agree with a reference th
         worst = std::max(worst, std::abs(static_cast<double>(found.distance - d[row])));
         unproven = std::max(unproven, static_cast<double>(found.gap));
         ++apart;
-      } else {  // deep: the gap along the normal that was found
+      } else {  // deep: compare the gap along the normal that was found
         worstGap = std::max(worstGap, std::abs(static_cast<double>(referenceGap(a, b, n) - d[row])));
         ++deep;
       }
@@ -113,7 +115,7 @@ TEST_CASE("a humanoid's distances in 1000 random poses agree with a reference th
   INFO(apart << " apart, " << deep << " deep");
   CHECK(apart > 2000);
   CHECK(deep > 10);
-  // Joints, poses and points of about 1 m, products of up to ten rotations: some 1e-15.
+  // Joints, poses and points of about 1 m, and products of up to ten rotations: about 1e-15.
   CHECK(worst < 1e-13);
   CHECK(worstGap < 1e-13);
   CHECK(unproven < 1e-13);

@@ -1,4 +1,4 @@
-// What is wrong with a robot's files is told all at once, by name and line, and costs nothing else.
+// All faults of a robot's files are reported at once, by name and line, and do not affect anything else.
 #include <catch2/catch.hpp>
 #include <limits>
 

@@ -1,4 +1,5 @@
-// Reading URDF and SRDF: what they say is kept, and what cannot be a robot is refused with a reason.
+// Reading URDF and SRDF: their contents are kept, and files that cannot describe a robot are refused with a
+// reason.
 #include <catch2/catch.hpp>
 
 #include "fcl_stpbv/error.h"
@@ -17,7 +18,7 @@ namespace {
 
 RobotModel parse(const std::string& body) { return parseUrdf(robot(body), "small.urdf"); }
 
-/// What came of a robot that was read before main() began.
+/// The result of reading a robot before main() began.
 const std::string early = [] {
   try {
     parse("<link name=\"a\"><collision><geometry><sphere radius=\"0.1\"/></geometry></collision></link>");
@@ -248,7 +249,7 @@ TEST_CASE("names lead where their writer meant, whatever the working folder is")
   CHECK(paths.resolve("package://pkg/meshes/a%20b.stl") == meshes + "a b.stl");
   CHECK(paths.resolve("package://pkg/meshes/c%20d.stl") == meshes + "c%20d.stl");
   CHECK(paths.resolve("package://pkg//meshes/e.stl") == meshes + "e.stl");
-  // The other folder has the last folders of the name; the package itself has all of it.
+  // The other folder has the last folders of the name. The package itself has all of them.
   put(folder / "other/e.stl", "x");
   std::filesystem::create_directories(folder / "pkg/models/meshes");
   put(folder / "pkg/models/meshes/e.stl", "x");
@@ -279,7 +280,8 @@ TEST_CASE("a package in a repository of a workspace is found where rospack finds
   put(src + "repo/pkg/meshes/a.stl", "x");
   put(src + "repo/other/package.xml", "<package><name>other</name></package>");
   put(src + "off/CATKIN_IGNORE", "");
-  for (const char* none : {"repo/other/pkg", ".hidden/pkg", "off/pkg"}) {  // inside a package, hidden, marked
+  // Inside a package, hidden, marked to be ignored.
+  for (const char* none : {"repo/other/pkg", ".hidden/pkg", "off/pkg"}) {
     put(src + none + "/package.xml", "<package><name>none</name></package>");
     put(src + none + "/a.stl", "x");
   }
@@ -351,7 +353,7 @@ TEST_CASE("an SRDF's reasons count in any case and with blanks around them") {
     put(folder / "s.srdf", entry(written));
     const Srdf srdf = loadSrdf(folder / "s.srdf", model);
     CHECK(SkipReasons(&srdf).of("a", "b") == counts);
-    // What the user left out stays.
+    // Pairs that the user left out stay.
     const bool stays = withPairs(folder / "s.srdf", "small", {}).find("link1") != std::string::npos;
     CHECK(stays == (counts == std::string("User")));
   }
@@ -489,7 +491,8 @@ TEST_CASE("a posture of several groups is taken whole, and nothing of it is left
     names.push_back(each.name);
     CHECK(each.joints == srdf.state(each.name).joints);
   }
-  CHECK(names == std::vector<std::string>{"home", "typo", "follows", "still"});  // "odd" is two of one name
+  // the two states named "odd" contradict each other.
+  CHECK(names == std::vector<std::string>{"home", "typo", "follows", "still"});
   REQUIRE(srdf.warnings.size() == 1);
   CHECK_THAT(srdf.warnings[0], Contains("'typo'") && Contains("'jj'"));
   CHECK(kinematics.configuration(srdf.state("still")) == kinematics.neutral());
@@ -519,12 +522,13 @@ TEST_CASE("what follows a continuous joint at another speed reaches all of its p
   CHECK(leader("continuous", "0.5") == std::pair(-2 * M_PI, 2 * M_PI));
   CHECK(leader("revolute", "-0.333333") == std::pair(-3 * M_PI, 3 * M_PI));
   CHECK(leader("continuous", "0.7") == std::pair(-10 * M_PI, 10 * M_PI));
-  CHECK(leader("continuous", "0.314159265") == std::pair(-1e6, 1e6));  // never comes back
-  CHECK(leader("continuous", "9e-6") == std::pair(-1e6, 1e6));         // not in 64 turns
-  // A rack of the limits -1 and 1 (urdf_texts.h).
+  CHECK(leader("continuous", "0.314159265") == std::pair(-1e6, 1e6));  // never comes back to the start
+  CHECK(leader("continuous", "9e-6") == std::pair(-1e6, 1e6));         // not within 64 turns
+  // A rack with the limits -1 and 1 (urdf_texts.h).
   CHECK(leader("prismatic", "0.02") == std::pair(-50.0, 50.0));
   CHECK(leader("prismatic", "5") == std::pair(-M_PI, M_PI));
-  // Two of them, and a wheel that never comes back: as far as all allow, at least half a turn either way.
+  // Two racks, and a wheel that never comes back: as far as all limits allow, and at least half a turn in
+  // both directions.
   const auto rack = [](const std::string& name, const std::string& lower, const std::string& upper,
                        const std::string& ratio) {
     return "<joint name=\"" + name + "\" type=\"prismatic\"><parent link=\"a\"/><child link=\"" + name +
@@ -543,7 +547,7 @@ TEST_CASE("what follows a continuous joint at another speed reaches all of its p
         std::pair(-20.0, M_PI));
   CHECK(range(rack("r", "-1", "0.5", "0.03125") + rack("s", "0", "0", "0.5")) == std::pair(-32.0, 16.0));
   CHECK(range(rack("r", "-1e16", "1e16", "0.01")) == std::pair(-1e6, 1e6));
-  // Of many followers all turns at once: 2^6 and the primes to 61 have a product of 1e23.
+  // The common multiple of many followers: 2^6 and the primes to 61 have a product of 1e23.
   std::string gears = link("a") + link("b") + joint("j", "continuous", "a", "b");
   for (const int teeth : {64, 61, 59, 53, 47, 43, 41, 37, 31, 29, 23, 19, 17, 13, 11, 7, 5, 3}) {
     const std::string name = "g" + std::to_string(teeth);

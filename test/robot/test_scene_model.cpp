@@ -1,4 +1,5 @@
-// modelForScene(): no finer than the needs, as fine as they ask for, the same by any number of threads.
+// modelForScene(): not finer than the needs require, as fine as they require, and the same for any number of
+// threads.
 #include <fcl/geometry/shape/sphere.h>
 
 #include <catch2/catch.hpp>
@@ -29,8 +30,8 @@ std::string origin(const std::string& xyz, const std::string& rpy = "0 0 0") {
   return "<origin xyz=\"" + xyz + "\" rpy=\"" + rpy + "\"/>";
 }
 
-/// An L in the xy plane, a cup that slides along x and y, and a second L turned by half a turn that slides
-/// along x from where the two hook into each other without touching.
+/// An L in the xy plane, a cup that slides along x and y, and a second L, turned by half a turn. The second L
+/// slides along x, from a position where the two hook into each other without touching.
 struct Workshop {
   TemporaryFolder folder;
   std::shared_ptr<const RobotModel> robot;
@@ -64,7 +65,7 @@ struct Workshop {
     VectorXd q(3);
     q[kinematics->coordinate("x")] = x;
     q[kinematics->coordinate("y")] = y;
-    q[kinematics->coordinate("h")] = hook;  // negative: away, as it is turned
+    q[kinematics->coordinate("h")] = hook;  // negative values move it away, because it is turned
     return q;
   }
 
@@ -76,7 +77,7 @@ struct Workshop {
     return d.minCoeff();
   }
 
-  /// Of the cup to the L.
+  /// Distance of the cup from the L.
   double meshDistance(const VectorXd& q) const {
     const auto tree = [](const TriangleMesh& mesh) {
       return detail::triangleTree(mesh.vertices, mesh.triangles);
@@ -93,7 +94,7 @@ struct Workshop {
     return modelForScene(kinematics, levels, {}, needs, options);
   }
 
-  /// Below the L, where the coarse volumes meet by a millimetre.
+  /// A position below the L where the coarse volumes overlap by a millimetre.
   VectorXd belowTheL() const {
     double apart = -0.5, meets = 0;
     while (meets - apart > 1e-9) {
@@ -109,7 +110,7 @@ const Workshop& workshopOfAll() {
   return workshop;
 }
 
-// At every level the same whole body.
+// Whether the link is the same whole body at this level.
 bool isWhole(const RobotGeometry& geometry, const RobotGeometry& level, int link) {
   const auto [first, last] = geometry.of(link);
   return last == first + 1 && geometry.bodies[static_cast<std::size_t>(first)].volume ==
@@ -210,7 +211,7 @@ TEST_CASE("a clearance that the meshes themselves do not have is told before par
   const SceneModel model = modelForScene(workshop.kinematics, workshop.levels, {}, needs, options);
   CHECK(model.unmet.size() == 2);
   CHECK_FALSE(std::filesystem::exists(options.cacheFolder));
-  // No surface is nearer to its mesh than r, which is 1 mm of each.
+  // Each surface is at least r = 1 mm away from its mesh.
   const VectorXd q = workshop.at(0.11, 0.11);
   const double apart = workshop.meshDistance(q);
   REQUIRE(apart > 0.002);

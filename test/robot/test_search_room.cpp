@@ -1,5 +1,5 @@
-// Where coordinates are searched whose limits are far beyond the size of the robot, and descents of tiny
-// ones.
+// The search range of coordinates whose limits are far beyond the size of the robot, and descents of tiny
+// robots.
 #include <fcl/geometry/shape/cylinder.h>
 
 #include <algorithm>
@@ -37,7 +37,7 @@ std::string rail(const std::string& name, const std::string& parent, const std::
          "\" effort=\"1\" velocity=\"1\"/></joint>";
 }
 
-// A cart 1 m from a post, and an arm on it.
+// A cart 1 m from a post, with an arm on it.
 std::string cart(const std::string& post, const std::string& lower, const std::string& upper) {
   return link("post", post) + link("x") + link("y") + link("cart") +
          link("arm", "<box size=\"0.6 0.06 0.06\"/>") + rail("px", "post", "x", "1 0 0", lower, upper) +
@@ -99,7 +99,7 @@ TEST_CASE("rails of the usual lengths are searched from end to end") {
     CHECK(room.unit == Eigen::VectorXd::Ones(room.unit.size()));
     CHECK((room.scale == 1 && room.narrowed.empty()));
   }
-  // All of a long one is searched, too, if seldom, and never beyond its limits.
+  // The whole range of a long rail is searched too, if rarely, and never beyond its limits.
   const Arm arm = loaded(cart("<sphere radius=\"0.1\"/>", "-2", "1e16"), kRounding);
   const SearchRoom room = searchRoom(*arm.kinematics, *arm.geometry, {});
   std::mt19937_64 random(1);

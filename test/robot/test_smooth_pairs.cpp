@@ -1,4 +1,4 @@
-// Which primitives get a smooth cover: enough for every pair, none that is needless, the same every time.
+// The primitives that get a smooth cover: enough for every pair, none without need, the same every time.
 #include <catch2/catch.hpp>
 #include <set>
 
@@ -68,7 +68,7 @@ TEST_CASE("on robots of primitives every checked pair is continuous, and no cove
     const auto model = std::make_shared<const RobotModel>(parseUrdf(randomRobot(random), "random.urdf"));
     RobotGeometry geometry = loadGeometry(*model, uncached(round % 2 == 0));
     std::vector<CheckedPair> pairs = selfPairs(*model, geometry, nullptr);
-    if (round % 3 == 0)  // as with an SRDF that leaves many out
+    if (round % 3 == 0)  // like an SRDF that leaves out many
       for (std::size_t i = pairs.size(); i-- > 0;)
         if (random.below(3) > 0) pairs.erase(pairs.begin() + static_cast<std::ptrdiff_t>(i));
     if (pairs.empty()) continue;

@@ -1,5 +1,6 @@
-// No false "clear" from a damaged SRDF: whatever is done to any element or attribute, the file is refused, or
-// it leaves out no pair that the whole one checks; a misspelt word is refused, warned of, or changes nothing.
+// A damaged SRDF must not give a false "clear". For every damage to an element or attribute, either the file
+// is refused, or it leaves out no pair that the original checks. A misspelt word is refused, gives a warning,
+// or changes nothing.
 #include <catch2/catch.hpp>
 
 #include "fcl_stpbv/error.h"
@@ -15,7 +16,7 @@ using namespace fcl_stpbv::test;
 
 namespace {
 
-// All that the file decides: pairs left out, the named postures, the base.
+// Everything that the file decides: pairs left out, the named postures, the base.
 std::string decisionsOf(const Srdf& srdf, const RobotModel& robot) {
   std::string text = srdf.baseJoint + " " + srdf.baseType;
   const SkipReasons reasons(&srdf);
@@ -63,7 +64,8 @@ SrdfOutcome mutateAll(const RobotModel& robot, const std::string& text) {
       try {
         const Srdf srdf = load(mutated);
         outcome.warned += srdf.warnings.empty() ? 0 : 1;
-        // A pair enabled by name is checked no more where that entry is gone, as the user may have wished.
+        // If an entry that enables a pair is gone, the pair is no longer checked, as the user may have
+        // wished.
         const bool disabling = mutation.what.find("enable_collisions") == std::string::npos;
         if (disabling && hides(whole, srdf, robot)) FAIL_CHECK("a pair is left out that the file checks");
         if (mutation.misspelt && srdf.warnings.empty() && decisionsOf(srdf, robot) != content)

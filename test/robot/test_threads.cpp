@@ -1,5 +1,5 @@
-// What may be shared between threads is: volumes and geometries by any number, a batch by its own threads.
-// Built with the thread sanitizer (preset tsan) this is what finds a race.
+// Objects that may be shared between threads: volumes and geometries by any number of threads, a batch by its
+// own threads. Built with the thread sanitizer (preset tsan), this test finds races.
 #include <fcl/broadphase/broadphase_dynamic_AABB_tree.h>
 #include <fcl/config.h>
 #include <fcl/geometry/bvh/BVH_model.h>
@@ -36,7 +36,7 @@ Eigen::Isometry3d turned(int k) {
   return pose;
 }
 
-/// One geometry of each kind, for all threads to share.
+/// One geometry of each kind, shared by all threads.
 std::vector<std::shared_ptr<fcl::CollisionGeometryd>> everyKind() {
   std::vector<std::shared_ptr<fcl::CollisionGeometryd>> all{
       std::make_shared<StpBvGeometry>(StpBv::build(box(0.2, 0.1, 0.3))),
@@ -115,7 +115,8 @@ TEST_CASE("eight threads that share a geometry of every kind get the answers of 
   const auto linkShared = std::make_shared<StpBvGeometry>(StpBv::build(geodesicSphere(0.1, 2)));
   const auto kinds = everyKind();
   constexpr int kPoses = 20, kThreads = 8;
-  // An object of one's own in each thread, made beforehand: FCL's constructor writes into the geometry.
+  // Each thread has its own object, which is made beforehand because FCL's constructor writes into the
+  // geometry.
   std::vector<std::unique_ptr<fcl::CollisionObjectd>> objects;
   for (int i = 0; i < 3 * (kThreads + 1); ++i)
     objects.push_back(std::make_unique<fcl::CollisionObjectd>(
@@ -127,7 +128,7 @@ TEST_CASE("eight threads that share a geometry of every kind get the answers of 
     for (int k = 0; k < kPoses; ++k) {
       for (const auto& kind : kinds)
         found.push_back(distance(link, Eigen::Isometry3d::Identity(), *kind, turned(k)).distance);
-      for (std::size_t i = 0; i < kinds.size(); ++i)  // each kind with another in turn
+      for (std::size_t i = 0; i < kinds.size(); ++i)  // each kind with another one
         found.push_back(isFartherThan(0.05, *kinds[i], Eigen::Isometry3d::Identity(),
                                       *kinds[(i + static_cast<std::size_t>(k)) % kinds.size()], turned(k)));
       own[0]->setTransform(turned(k));
@@ -184,7 +185,7 @@ TEST_CASE("a batch of a robot's configurations in three threads is that of one")
   const Problem p = problem(robots().front());
   const CollisionConstraints rows(p.kinematics, p.geometry, p.pairs);
   const CollisionChecker checker(p.kinematics, p.geometry, p.pairs);
-  constexpr int kCount = 260;  // pieces for all three
+  constexpr int kCount = 260;  // enough for pieces for all three threads
   Random random(6);
   Eigen::MatrixXd q(rows.columns(), kCount), d(rows.rows(), kCount), other = d;
   Eigen::Array<bool, Eigen::Dynamic, 1> hit(kCount), otherHit(kCount);

@@ -1,5 +1,6 @@
-// No false "clear" from a damaged URDF: whatever is done to any element or attribute, the robot is refused,
-// or every <collision> of the text is in the model. A misspelt word never changes the robot silently.
+// A damaged URDF must not give a false "clear". For every damage to an element or attribute, either the robot
+// is refused, or every <collision> of the text is in the model. A misspelt word never changes the robot
+// silently.
 #include <catch2/catch.hpp>
 
 #include "fcl_stpbv/error.h"
@@ -23,7 +24,7 @@ int collisionsOf(const RobotModel& robot) {
   return count;
 }
 
-// All that decides where the collision bodies are, as text.
+// Everything that decides where the collision bodies are, as text.
 std::string geometryOf(const RobotModel& robot) {
   std::string text;
   const auto pose = [&](const Eigen::Isometry3d& p) {

@@ -74,7 +74,7 @@ TEST_CASE("rows at every level follow from d, J and the rates, sparse as dense")
     return bound[0];
   };
   REQUIRE(rates.d[0] < 0.05);
-  // Sums of a handful of numbers, over the period.
+  // Sums of a few numbers, divided by the period.
   CHECK(b(DamperLevel::velocity) == Approx(allowed).epsilon(1e-13));
   CHECK(b(DamperLevel::acceleration) ==
         Approx((allowed - rates.speed[0]) / kPeriod - rates.drift[0]).epsilon(1e-11));
@@ -102,12 +102,12 @@ TEST_CASE(
     }
     REQUIRE(damper.near().size() == 1);
     CHECK((damper.A() * qd)[0] >=
-          damper.b()[0] + 0.04);  // the headroom of 0.05, less what xi is scaled by since d_i
+          damper.b()[0] + 0.04);  // the headroom of 0.05, minus the reduction of xi since d_i
     const double entered = damper.damping(0);
     CHECK(entered >= 0.5);
     CHECK((entered > 0.5) == (speed > 0.46));
     damper.update(q, 0 * qd);
-    CHECK(damper.damping(0) == entered);  // until it leaves
+    CHECK(damper.damping(0) == entered);  // stays until the pair leaves
     damper.update(held.q, qd);
     damper.update(q, 0 * qd);
     CHECK(damper.damping(0) == 0.5);
@@ -148,11 +148,11 @@ TEST_CASE("no gradient changes faster than r, R, the distance and the velocities
   }
   INFO("closest to its bound " << tightest);
   CHECK(compared > 500);
-  CHECK(tightest > 0.3);  // a bound that nothing comes near would bound nothing
+  CHECK(tightest > 0.3);  // a bound that is never approached would show nothing
   CHECK(tightest <= 1 + 1e-9);
 }
 
-// One row and H = 1, so that the program's solution is a projection and needs no solver.
+// One row and H = 1, so the program's solution is a projection and needs no solver.
 TEST_CASE(
     "the joint acceleration that a collision row causes stays below its bound while a held box slides over a "
     "table") {
@@ -170,7 +170,7 @@ TEST_CASE(
     const double t = k * kPeriod;
     damper.update(q, qd);
     a = MatrixXd(damper.A()).row(0);
-    VectorXd task(n);  // down, and to and fro with every joint at its own pace
+    VectorXd task(n);  // downwards, and to and fro with a different frequency for every joint
     for (Eigen::Index i = 0; i < n; ++i) task[i] = 0.05 * std::sin((2 + 0.3 * static_cast<double>(i)) * t);
     held.constraints->evaluate(q, qd, rates, jacobian);
     if (k == 0) lastTask = task;
@@ -178,7 +178,7 @@ TEST_CASE(
     const double short_ = damper.b()[0] - a.dot(task);
     const bool acts = short_ > 0;
     const VectorXd x = acts ? VectorXd(task + a * short_ / a.squaredNorm()) : task;
-    held.constraints->evaluate(q, x, rates, jacobian);  // what the row does during the tick to come
+    held.constraints->evaluate(q, x, rates, jacobian);  // the effect of the row during the next tick
     ProgramChange change;
     change.gradient = held.constraints->gradientRateBound(0);
     change.bound = damper.damping(0) / 0.04 * std::abs(rates.speed[0]);
@@ -188,7 +188,8 @@ TEST_CASE(
     if (acts && acted) {
       const double measured = (x - lastQd).norm() / kPeriod,
                    allowed = (task - lastTask).norm() / kPeriod + std::max(bound, before);
-      // The bound is on the derivative; over a tick the rates themselves change by a few parts in a thousand.
+      // The bound is for the derivative. Over a tick the rates themselves change by a few parts in a
+      // thousand.
       CHECK(measured <= 1.01 * allowed);
       tightest = std::max(tightest, measured / allowed);
       most = std::max(most, measured);
@@ -219,7 +220,7 @@ TEST_CASE("a damper that makes no sense is refused with what would work") {
     options.rows = {{0, wrong}};
     CHECK_THROWS_WITH(VelocityDamper(*held.constraints, options), Catch::Contains("of row 0"));
   }
-  // Its rows bend over from 2.5 cm on, to 3.75 cm.
+  // Its rows bend from 2.5 cm to 3.75 cm.
   Held small(0.01, 10, 0.2, 0.05);
   CHECK(small.constraints->exactUpTo(0) == 0.025);
   options = {};
@@ -269,7 +270,7 @@ TEST_CASE("a smooth constraint whose value is no number is near, with a row that
     <joint name="x" type="prismatic"><parent link="base"/><child link="b"/><axis xyz="1 0 0"/>
       <limit lower="-9" upper="9" effort="1" velocity="1"/></joint></robot>)";
   const auto model = std::make_shared<const RobotModel>(parseUrdf(rail, "rail.urdf"));
-  SmoothConstraint root;  // of 1 - q: no number beyond 1
+  SmoothConstraint root;  // of 1 - q, which is NaN beyond 1
   root.name = "root";
   root.coordinates = {0};
   root.value = [](const Eigen::Ref<const VectorXd>& q, double* gradient) {
@@ -295,7 +296,7 @@ TEST_CASE("a smooth constraint whose value is no number is near, with a row that
 
 TEST_CASE("the acceleration's bound is a number: 0 where nothing changes, infinite where nothing bounds it") {
   const double none = std::numeric_limits<double>::infinity();
-  CHECK(collisionAccelerationBound({}, 1, 0) == 0);  // no acting row, and so no eigenvalue
+  CHECK(collisionAccelerationBound({}, 1, 0) == 0);  // no active row, and therefore no eigenvalue
   CHECK(collisionAccelerationBound({none, 0, 0, 0}, 1, 1) == 0);
   CHECK(collisionAccelerationBound({none, 2, 0, 0}, 1, 4) == 1);
   CHECK(collisionAccelerationBound({3, 2, 4, 1}, 4, 25) == 6 + 1);
@@ -317,7 +318,7 @@ TEST_CASE("a configuration that is not a number meets no row, and leaves what ha
   CHECK(damper.b()[0] == std::numeric_limits<double>::infinity());
   CHECK(MatrixXd(damper.A()).norm() == 0);
   damper.update(held.q, still);
-  // Down to the influence at 4 m/s: the row enters with headroom.
+  // Moves towards the influence at 4 m/s: the row enters with headroom.
   const VectorXd gradient = MatrixXd(damper.A()).row(0);
   const VectorXd qd = -4 * gradient / gradient.squaredNorm();
   damper.update(none, qd);

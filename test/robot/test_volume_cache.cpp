@@ -1,5 +1,5 @@
-// The cache is believed only where nobody else can have written it, and
-// writes nowhere but into its own folder.
+// An entry of the cache is used only if nobody else can have written it. The cache writes only into its own
+// folder.
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -18,13 +18,13 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Asks for the volume of a box of this size; whether it came from the cache.
+// Asks for the volume of a box of this size. @returns whether it came from the cache.
 bool cached(const std::string& folder, double size) {
   VolumeCache cache(folder);
   const StpBv::Ptr volume = cache.volume(std::to_string(size), {0.01, 10}, [&] {
     return StpBv::build(box(size, size, size), {0.01, 10});
   });
-  // A big sphere's cap over a face: half its diagonal squared by 2 R.
+  // The height of a big sphere's cap over a face: half the diagonal squared, divided by 2 R.
   CHECK(volume->support({1, 0, 0}) == Approx(size / 2 + 0.01).margin(1.1 * size * size / 2 / (2 * 10.0)));
   return cache.hits() > 0;
 }
@@ -45,7 +45,7 @@ TEST_CASE("an entry of another mesh, of another user or that others may write is
   const std::string entry = onlyEntry(folder / "a");
   const auto spoilt = [&](const auto& spoil) {
     spoil();
-    CHECK_FALSE(cached(folder / "a", 0.2));  // and written anew
+    CHECK_FALSE(cached(folder / "a", 0.2));  // and the entry is written again
     CHECK(cached(folder / "a", 0.2));
   };
   spoilt([&] { fs::copy_file(onlyEntry(folder / "b"), entry, fs::copy_options::overwrite_existing); });

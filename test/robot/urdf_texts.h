@@ -1,4 +1,4 @@
-// Small robots as texts.
+// Small robots as URDF texts.
 #pragma once
 
 #include <string>
@@ -23,12 +23,12 @@ inline std::string joint(const std::string& name, const std::string& type, const
          "\" effort=\"1\" velocity=\"1\"/>" + more + "</joint>";
 }
 
-/// What is said where a robot's text is refused.
+/// The message with which a robot's text is refused.
 inline std::string refused(const std::string& text) {
   return refusal([](const std::string& t) { parseUrdf(t, "small.urdf"); }, text);
 }
 
-/// How many <collision> elements a text has, counted without a parser.
+/// Number of <collision> elements in a text, counted without a parser.
 inline int collisionsIn(const std::string& text) {
   int count = 0;
   const std::string tag = "<collision";

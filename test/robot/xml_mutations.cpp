@@ -1,4 +1,4 @@
-// One element or attribute of an XML text is damaged in turn, in a copy of the parsed document.
+// Damages one element or attribute of an XML text after another, each in a copy of the parsed document.
 #include "test/robot/xml_mutations.h"
 
 #include <tinyxml2.h>
@@ -81,7 +81,7 @@ void forEachMutation(const std::string& text, int shift, std::size_t step,
     for (const tinyxml2::XMLAttribute* a = elementsOf(whole)[i]->FirstAttribute(); a; a = a->Next())
       attributes.push_back(a->Name());
     for (std::size_t a = 0; a <= attributes.size(); ++a) {
-      if (i == 0 && a == attributes.size()) continue;  // the root itself stays
+      if (i == 0 && a == attributes.size()) continue;  // the root itself is not changed
       tinyxml2::XMLDocument document;
       whole.DeepCopy(&document);
       XMLElement& e = *elementsOf(document)[i];

@@ -1,4 +1,5 @@
-// The suite itself: our methods fail nowhere, its references are right, and each way to fail is recognised.
+// Tests of the suite itself: the library's methods have no failures, the references are right, and each kind
+// of failure is recognised.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstdlib>
@@ -35,7 +36,7 @@ Answer distanceAnswer(double d) {
   return a;
 }
 
-/// Answers each query the way its template argument says.
+/// Answers each query by its template argument.
 template <void (*kAct)(int query)>
 class Misbehaving : public Contestant {
  public:
@@ -95,7 +96,7 @@ TEST_CASE("The reference distance of polyhedra is that of boxes and points in cl
   test::Random random(1);
   for (int i = 0; i < 50; ++i) {
     const Eigen::Isometry3d pose = test::pose(random.rotation(), random.direction());
-    // A point beside a box, nearest to a face, an edge or a corner.
+    // A point next to a box, nearest to a face, an edge or a corner.
     const Vector3d half(0.1, 0.2, 0.15),
         out(random.uniform(-0.4, 0.4), random.uniform(-0.4, 0.4), random.uniform(0.2, 0.4));
     const Vector3d beyond = (out.cwiseAbs() - half).cwiseMax(0);
@@ -169,6 +170,6 @@ TEST_CASE("A gradient that jumps between two right distances is found") {
   for (Answer& a : answers) a.hasPoints = true, a.point[0][0] = 0.1, a.point[1][0] = 0.4;
   const Method method{"m", "m", false, true, nullptr};
   CHECK(judge(method, s, truthsOf(s), answers).verdict == Verdict::exact);
-  for (auto& p : answers[1].point) p[1] += 0.05;  // the witness points switch to another corner
+  for (auto& p : answers[1].point) p[1] += 0.05;  // the witness points jump to another corner
   CHECK(judge(method, s, truthsOf(s), answers).verdict == Verdict::jump);
 }

@@ -6,7 +6,7 @@ import re
 
 
 def page_text(page):
-    """The report as text."""
+    """The report in a page, as text."""
     return gzip.decompress(base64.b64decode(re.search('id="packed-report">([^<]*)<', page)[1])).decode()
 
 

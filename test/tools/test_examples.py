@@ -14,7 +14,7 @@ PROGRAMS, PROJECT = (pathlib.Path(a).resolve() for a in sys.argv[1:3])
 class Examples(unittest.TestCase):
     def run_in(self, folder, name, *arguments):
         program = PROGRAMS / f"example_{name}"
-        if not program.exists():  # that of IPOPT, where it is not installed
+        if not program.exists():  # the example of IPOPT, if IPOPT is not installed
             self.skipTest(f"{name} was not built")
         return subprocess.run([program, *arguments], cwd=folder, capture_output=True, text=True, timeout=100)
 

@@ -22,7 +22,7 @@ REACH = os.path.join(SOURCE, "test/tools/reach.json")
 class FindPosture(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        """A cache for the robot that the tests share: built once."""
+        """A cache for the robot that the tests share, so that it is built once."""
         cls.shared = tempfile.TemporaryDirectory()
         cls.addClassCleanup(cls.shared.cleanup)
 
@@ -47,7 +47,7 @@ class FindPosture(unittest.TestCase):
             return json.load(file)
 
     def gate_task(self, height, **collisions):
-        """A box that is to be in the gap of a gate of two posts, or at some height in front of it."""
+        """A task for a box in the gap of a gate of two posts, or at some height in front of it."""
         def boxes(name, side, *middles):
             text = ""
             for k, middle in enumerate(middles):
@@ -95,7 +95,7 @@ class FindPosture(unittest.TestCase):
             self.assertEqual(status, 0, complaints)
             self.assertEqual(split["parts"], {"gate": 2})
             self.assertAlmostEqual(split["q"]["slide"], 0, delta=1e-6)
-        # The file may ask for it too, and the command line wins.
+        # The file may request it too, and the command line overrides the file.
         self.gate_task(0, parts="auto")
         self.assertEqual(self.gate_posture()[0], 0)
         self.assertEqual(self.gate_posture("--parts", "none")[0], 1)
@@ -112,7 +112,7 @@ class FindPosture(unittest.TestCase):
         self.assertEqual((status, far["parts"]), (0, {}))
         with open(os.path.join(self.folder.name, "gate.json"), encoding="utf-8") as file:
             task = json.load(file)
-        task["collisions"]["margin"] = 0.14  # more than the posts leave: 0.15 m less r twice
+        task["collisions"]["margin"] = 0.14  # more than the posts leave: 0.15 m minus 2 r
         task["placements"][0]["target"]["position"] = [0, 0, 0]
         with open(os.path.join(self.folder.name, "gate.json"), "w", encoding="utf-8") as file:
             json.dump(task, file)
@@ -228,7 +228,7 @@ class FindPosture(unittest.TestCase):
         self.assertTrue(any("upper_door" in line and re.search(r", -0\.\d+ m$", line) for line in told), told)
 
     def stands_at(self, position, obstacle, *arguments, base="fixed"):
-        """A ball on a slide along x, 1 m above its base, among a ball of the same 5 cm."""
+        """A ball on a slide along x, 1 m above its base, with another ball of the same 5 cm as an obstacle."""
         def robot(name, *links, joint=""):
             ball = '<collision><geometry><sphere radius="0.05"/></geometry></collision>'
             path = os.path.join(self.folder.name, name)
@@ -318,8 +318,8 @@ class FindPosture(unittest.TestCase):
         self.assertEqual(run.returncode, 0, run.stderr)
         answer = json.loads(run.stdout)
         self.assertIs(answer["feasible"], True)
-        # 21 pairs; six are adjacent, and the flange cannot leave the first part of the wrist, nor with a smooth cover the second
-        # part the forearm.
+        # 21 pairs. Six are adjacent. The flange cannot leave the first part of the wrist. With a smooth
+        # cover, the second part cannot leave the forearm.
         self.assertEqual(answer["pairs"], 13)
         flat = self.run_tool(ARM, REACH, "--format", "json", "--primitives", "flat")
         self.assertEqual(json.loads(flat.stdout)["pairs"], 14)
@@ -328,7 +328,7 @@ class FindPosture(unittest.TestCase):
         run = self.run_tool(ARM, REACH, "--format", "json")
         closest = json.loads(run.stdout)["closest"]
         page = page_data(self.run_tool(ARM, REACH, "--format", "html").stdout)
-        pair = page["pairs"][0]  # the closest comes first
+        pair = page["pairs"][0]  # the closest pair comes first
         self.assertIn(closest["pair"], (f"{pair['link1']} - {pair['link2']}", f"{pair['link2']} - {pair['link1']}"))
         self.assertAlmostEqual(closest["distance"], pair["min_distance"], 8)  # the page rounds
         text = self.run_tool(ARM, REACH).stdout

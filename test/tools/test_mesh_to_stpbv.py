@@ -87,7 +87,8 @@ class MeshToStpbv(unittest.TestCase):
         self.assertNotIn("NOT", made("--excess", "0.3"))
 
     def test_radii_that_fit_the_mesh_are_those_of_the_robot_tools(self):
-        # A cube of 1 cm: r is a twentieth of its side, and so is the bulge that R adds. Of one of 1 m it is beyond 1 cm.
+        # A cube of 1 cm: r is a twentieth of its side, and so is the bulge of R. For a cube of 1 m that would
+        # exceed 1 cm.
         def radii(*arguments):
             report = json.loads(self.run_tool("cube.txt", "-o", "a.stpbv", "--json", "--force", *arguments).stdout)
             return report["r"], report["R"]
@@ -160,7 +161,7 @@ class MeshToStpbv(unittest.TestCase):
         self.assertIs(report["verified"], True)
 
     def test_a_gate_of_two_posts_exceeds_its_mesh_by_half_of_the_gap(self):
-        # Two unit cubes 2 m apart: in the middle between them the hull's side is 1 m away from either.
+        # Two unit cubes 2 m apart. In the middle between them, the hull's side is 1 m away from both.
         corners = [(x + 3 * k, y, z) for k in (0, 1) for x, y, z in CUBE]
         faces = [(1, 2, 4, 3), (5, 7, 8, 6), (1, 5, 6, 2), (3, 4, 8, 7), (1, 3, 7, 5), (2, 6, 8, 4)]
         write(self.at("gate.obj"), "".join("v %g %g %g\n" % c for c in corners)
@@ -192,7 +193,7 @@ class MeshToStpbv(unittest.TestCase):
         done = self.run_tool("broken.txt", "missing.stl", "-o", "new/deep/", code=1)
         self.assertIn("all 2 inputs failed, nothing is written", done.stderr)
         self.assertFalse(os.path.exists(self.at("new")))
-        os.mkdir(self.at("kept"))  # the user's own stays
+        os.mkdir(self.at("kept"))  # an existing folder of the user stays
         self.run_tool("broken.txt", "missing.stl", "-o", "kept", code=1)
         self.assertTrue(os.path.exists(self.at("kept")))
 
@@ -264,7 +265,7 @@ class MeshToStpbv(unittest.TestCase):
         self.assertEqual(read(self.at("a.stpbv")), b"old")
 
     def two_pieces(self, name, flat=False):
-        """A tetrahedron, and 1 m off another one or a flat triangle, whose volume is a spindle."""
+        """A tetrahedron, and 1 m away another one or a flat triangle, whose volume is a spindle."""
         corners = [(0, 0, 0), (0.1, 0, 0), (0, 0.1, 0), (0, 0, 0.1)]
         faces = [(1, 3, 2), (1, 2, 4), (2, 3, 4), (1, 4, 3)]
         text = "".join("v %g %g %g\n" % corner for corner in corners)
@@ -296,7 +297,7 @@ class MeshToStpbv(unittest.TestCase):
         self.refused("body.obj", "-o", "v.stpbv", "--preview", "v.ply", "--parts", "2", "--force",
                      says=["v.ply: is the volume v_1.stpbv itself"])
         self.assertEqual(read(self.at("v.ply")), b"old")
-        os.symlink("n.ply", self.at("n.stpbv"))  # which is not there yet
+        os.symlink("n.ply", self.at("n.stpbv"))  # the link's target does not exist yet
         self.refused("body.obj", "-o", "n.stpbv", "--preview", "n.ply", says=["n.ply: is the volume n.stpbv itself"])
         self.run_tool("body.obj", "-o", "t.stpbv", "--parts", "2", "--preview", "t.ply")
         self.assertTrue(read(self.at("t_0.stpbv")).startswith(b"stpbv 1"))
@@ -304,7 +305,7 @@ class MeshToStpbv(unittest.TestCase):
     def test_a_gltf_is_looked_into_once_for_all_names_of_parts(self):
         write(self.at("large.gltf"), json.dumps({"asset": {"version": "2.0"}, "extras": list(range(300000))}))
 
-        def seconds():  # of processor time, whatever else the machine does
+        def seconds():  # processor time, which other processes do not change
             before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
             self.run_tool("large.gltf", "-o", "part.stpbv", "--excess", "0.01", "--force", code=1)
             return resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before
@@ -380,7 +381,7 @@ class MeshToStpbv(unittest.TestCase):
         self.refused("a.stpbv", "-o", "c.stpbv", "-R", "20", says=["a.stpbv: is an STP-BV already", "R = 10"], code=1)
         self.run_tool("a.stpbv", "-o", "d.stpbv", "-R", "10", "-q")
         self.assertNotIn("built in", self.run_tool("a.stpbv", "-o", "e.stpbv").stdout)
-        for kind in ("stpbv", "sch"):  # a volume may have any name
+        for kind in ("stpbv", "sch"):  # a volume's file may have any name
             self.run_tool("a.stpbv", "-o", kind + ".bak", "--format", kind, "-q")
             self.run_tool(kind + ".bak", "-o", kind + "_back.stpbv", "-q")
             self.assertEqual(read(self.at("a.stpbv")), read(self.at(kind + "_back.stpbv")))
@@ -407,7 +408,7 @@ class MeshToStpbv(unittest.TestCase):
                 self.assertEqual(done.stdout, volume, done.stderr)
         for command in ('"$T" cube.txt -o - | "$T" - -o - --format sch | "$T" - -o -',):
             self.assertEqual(self.shell(command).stdout, volume)
-        # Behind a descriptor there may be a file: it is the shell's to replace.
+        # There may be a file behind a descriptor. The shell decides whether to replace it.
         for number, command in enumerate(('"$T" cube.txt -o - > %s', '"$T" cube.txt -o /dev/stdout > %s', '"$T" cube.txt -o /dev/fd/1 > %s',
                                           '"$T" cube.txt -q -o /dev/fd/3 3> %s')):
             with self.subTest(command=command):
@@ -460,7 +461,7 @@ class MeshToStpbv(unittest.TestCase):
         self.assertNotIn("\033", done.stdout)
 
     def on_a_terminal(self, *arguments, kind="xterm", columns=80):
-        """What the program shows on a terminal as its standard error."""
+        """The program's output on a terminal as its standard error."""
         return shown_on_terminal(self, [PROGRAM, *arguments], "stderr", columns, stdout=subprocess.DEVNULL, cwd=self.folder.name,
                                  env={**os.environ, "TERM": kind})
 
@@ -468,17 +469,17 @@ class MeshToStpbv(unittest.TestCase):
         arguments = ["cube.txt", "other.txt", "-o", "out", "--force"]
         self.assertIn("1/2", self.on_a_terminal(*arguments))
         self.assertEqual(self.on_a_terminal(*arguments, "-q"), "")
-        self.assertEqual(self.on_a_terminal(*arguments, kind="dumb"), "")  # it could not take a line back
+        self.assertEqual(self.on_a_terminal(*arguments, kind="dumb"), "")  # such a terminal cannot rewrite a line
 
     def test_a_bar_keeps_to_its_line_and_cuts_no_character(self):
-        names = [letter * 60 + ".txt" for letter in ("\u53f3", "\u0434", "o\u0308")]  # two cells, one, and one of two characters
+        names = [letter * 60 + ".txt" for letter in ("\u53f3", "\u0434", "o\u0308")]  # one letter takes two cells, one takes one, one consists of two characters
         for name in names:
             write(self.at(name), points_file(CUBE))
         shown = self.on_a_terminal(*(self.at(name) for name in names), "-o", "out", "-j", "1", columns=40)
         bars = [line for line in re.split(r"\r\x1b\[K", shown) if line.startswith("[")]
         self.assertEqual([bar.split()[1] for bar in bars], ["0/3", "1/3", "2/3"])
         for bar, (letter, cells) in zip(bars, (("\u53f3", 2), ("\u0434", 1), ("o\u0308", 1))):
-            self.assertEqual(bar.split()[2], letter * (20 // cells))  # of 39 cells 19 are the bar and its count
+            self.assertEqual(bar.split()[2], letter * (20 // cells))  # of 39 cells, 19 are the bar and its count
 
     def test_an_interrupted_run_leaves_whole_files_only(self):
         inputs = []

@@ -15,12 +15,13 @@ PROGRAMS = [BIN / name for name in (
     "mesh_to_stpbv", "urdf_collision_report", "urdf_to_stpbv", "find_posture", "demo", "jump_sweep", "speed_accuracy", "stability")]
 SOAKS = [BIN / name for name in (
     "distance_soak", "shape_soak", "deep_soak", "truth_soak", "mirrored_limbs", "cloud_report", "fuzz", "geodesic_queries", "answers_usual")]
-# Where they were built: target `benchmarks`, and some where Bullet or IPOPT is.
+# If they were built: target `benchmarks`, and some only with Bullet or IPOPT.
 PROGRAMS += [BIN / name for name in (
     "adapter_figures", "build_benchmark", "constraints_benchmark", "control_bench", "optimise_bench", "parts_benchmark", "posture_study", "proof_boxes")
     if (BIN / name).exists()]
 SOAKS += [BIN / name for name in ("mirrored_soak", "bound_soak", "parts_soak") if (BIN / name).exists()]
-# Words that some scripts do take: ctest's options, names of files and folders, and what a program of ours refuses itself.
+# Words that some scripts accept: ctest's options, names of files and folders, and words that a program of the
+# project refuses itself.
 TAKE = {"nonsense": ("check_format", "demo", "fuzz", "make_packages"), "--no-such-option": ("test",)}
 NO_NUMBERS = ["nan", "-nan", "inf", "-inf", "1e400", "1,5", "1.5x", "x", "", " "]
 
@@ -39,7 +40,7 @@ def entries_of(program):
 
 
 def numbers_of(program):
-    """(option or None for a place on the command line, how many places come before it)."""
+    """(option, or None for a positional argument; the number of positional arguments before it)."""
     places = 0
     for name, kind in entries_of(program):
         if "NUMBER" in kind:
@@ -74,7 +75,7 @@ class Programs(unittest.TestCase):
             with self.subTest(program=program.name):
                 text = run(program, "--help").stdout
                 self.assertLessEqual(longest(text), 80)
-                self.assertNotRegex(text, r"Examples:\n(  .*\n)*   ")  # of a broken line help2man makes an option
+                self.assertNotRegex(text, r"Examples:\n(  .*\n)*   ")  # help2man makes an option of a broken line
                 for internal in ("Excludes:", "Needs:", ":NUMBER", "REQUIRED", ":{"):
                     self.assertNotIn(internal, text)
         for columns, least, most in ((50, 40, 50), (90, 80, 90), (200, 90, 100)):  # wider lines are hard to read
@@ -114,7 +115,7 @@ class Programs(unittest.TestCase):
                         tried += 1
                         given = [f"{option}={value}" if option[1] == "-" else option + value] if option else \
                             ["1"] * places + [value]
-                        # An empty word behind a short option's letter leaves the option without its value.
+                        # An empty word after a short option's letter leaves the option without a value.
                         self.refused(run(program, *given), *([option] if option and value.strip() else []))
         self.assertGreater(tried, 100)
 
@@ -127,7 +128,7 @@ class Programs(unittest.TestCase):
                     continue
                 for given in [option, ""], [option + "=", "1"]:
                     if given[1] and not option.startswith("--"):
-                        continue  # behind a short option's letter the sign is its value
+                        continue  # after a short option's letter, the sign belongs to its value
                     with self.subTest(program=program.name, given=given):
                         tried += 1
                         self.refused(run(program, *given), option + ": the value is empty")
@@ -155,7 +156,7 @@ class Programs(unittest.TestCase):
         self.assertGreaterEqual(tried, 1)
 
     def test_a_folder_that_cannot_be_written_is_refused_before_the_work(self):
-        folder, tried = __file__ + "/folder", 0  # within a file
+        folder, tried = __file__ + "/folder", 0  # inside a file
         for program in {*PROGRAMS, BIN / "collide_figures", BIN / "mesh_figures", BIN / "shape_figures", BIN / "robot_bench", BIN / "scene_models"}:
             entries = dict(entries_of(program)) if program.exists() else {}
             if "-o,--output" in entries and program.name not in ("mesh_to_stpbv", "urdf_to_stpbv", "urdf_collision_report", "find_posture"):

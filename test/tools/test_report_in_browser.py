@@ -59,17 +59,17 @@ TURN = """
 
 
 def processor_seconds(root):
-    """What a process and all its descendants have computed so far."""
+    """Processor time of a process and all its descendants so far."""
     parent, used = {}, {}
     for pid in filter(str.isdigit, os.listdir("/proc")):
         try:
             with open(f"/proc/{pid}/stat", encoding="utf-8") as file:
                 fields = file.read().rpartition(")")[2].split()
-        except OSError:  # it has just ended
+        except OSError:  # the process has just ended
             continue
         parent[int(pid)], used[int(pid)] = int(fields[1]), int(fields[11]) + int(fields[12])
     ours = {root}
-    for _ in range(20):  # deeper than a browser's processes go
+    for _ in range(20):  # deeper than a browser's processes are nested
         ours |= {pid for pid, above in parent.items() if above in ours}
     return sum(used.get(pid, 0) for pid in ours) / os.sysconf("SC_CLK_TCK")
 
@@ -130,7 +130,7 @@ class Browser(unittest.TestCase):
         WebDriverWait(self.browser, 60).until(lambda b: b.execute_script("return document.body.dataset.ready") == "yes")
 
     def reopen(self, change):
-        """Opens the page again with other data in it."""
+        """Opens the page again with other data."""
         with open(self.path("report.html"), encoding="utf-8") as file:
             before, block, after = re.split('(?<=id="packed-report">)([^<]*)', file.read())
         data = json.loads(gzip.decompress(base64.b64decode(block)))
@@ -165,11 +165,11 @@ class Browser(unittest.TestCase):
         self.browser.find_element(By.CSS_SELECTOR, selector).click()
 
     def rows(self):
-        """The table's rows as they are shown, each a list of its cells' texts."""
+        """The table's rows as shown, each a list of its cells' texts."""
         return self.script("return [...document.querySelectorAll('#table tbody tr')].map(r => [...r.cells].map(c => c.textContent))")
 
     def states(self):
-        """Both names of each row and what is said of the pair once it is selected."""
+        """Both names of each row, and the state that is shown when the pair is selected."""
         return self.script("""return [...document.querySelectorAll('#table tbody tr')].map(row => {
           row.click(); return [row.cells[0].textContent, row.cells[1].textContent, document.querySelector('.tag').textContent]; })""")
 
@@ -187,7 +187,7 @@ class Browser(unittest.TestCase):
         return self.browser.execute_async_script(COUNT_PIXELS)
 
     def frame_rate(self, what, size):
-        """Frames a second that one processor of its own would draw: what others do on the machine does not count."""
+        """Frames per second that a single processor would draw, so that other work of the machine does not count."""
         before = processor_seconds(self.browser.service.process.pid)
         frames, seconds = self.browser.execute_async_script(TURN)
         rate = frames / (processor_seconds(self.browser.service.process.pid) - before)
@@ -196,7 +196,7 @@ class Browser(unittest.TestCase):
         return rate
 
     def assert_turns_smoothly(self, what, size, calls, triangles):
-        """The work of a frame is counted. Its time depends on the machine: the least of 5 tells of a page that hardly moves."""
+        """Counts the work of a frame. Its time depends on the machine; the limit of 5 only detects a page that hardly moves."""
         rate = self.frame_rate(what, size)
         drawn = self.script("const work = scene.renderer.info.render; return [work.calls, work.triangles];")
         print(f"{what}: {drawn[0]} draw calls and {drawn[1]} triangles a frame", file=sys.stderr)
@@ -264,7 +264,7 @@ class Page(Browser):
         self.assertGreater(self.pixels()["link"], 5000)
 
     def test_nearer_bodies_hide_farther_ones(self):
-        # Two balls one behind the other: the one in front covers the other whole.
+        # Two balls, one behind the other: the one in front hides the other completely.
         ball = '<collision><geometry><sphere radius="{}"/></geometry></collision>'
         urdf = self.put("balls.urdf", '<robot name="balls"><link name="near">' + ball.format(0.2) + '</link><link name="middle"/>'
                         '<link name="far">' + ball.format(0.1) + '</link>' + "".join(
@@ -291,7 +291,7 @@ class Page(Browser):
                 ('<mimic joint="j1" multiplier="-1.5" offset="0.25"/>' if i == 6 else "") + "</joint>"
                 for i, kind in enumerate(kinds)) + "</robot>"
         coordinates = ["j0", "j1", "j2", "j3/x", "j3/y", "j3/angle", "j4/x", "j4/y", "j4/z", "j4/rx", "j4/ry", "j4/rz"]
-        far = {name: 0.3 + 0.1 * i for i, name in enumerate(coordinates)} | {"j4/x": 5000.0}  # the others are no less exact for it
+        far = {name: 0.3 + 0.1 * i for i, name in enumerate(coordinates)} | {"j4/x": 5000.0}  # the other poses must be as exact as without it
         self.open(self.put("joints.urdf", urdf), "--pose", self.put("pose.json", json.dumps(far)), "--primitives", "flat")
         off = self.script("""
           const at = name => new THREE.Vector3().setFromMatrixPosition(scene.bodies[scene.report.bodies.findIndex(b => b.owner === name)].matrix);
@@ -326,7 +326,7 @@ class Page(Browser):
         self.assertIn(UGLY, [name for row in self.rows() for name in row[:2]])
         self.assertIn("no smooth body", self.browser.find_element(By.ID, "warnings").text)
         self.assertEqual(self.script("return document.querySelectorAll('#table b, #detail script').length"), 0)
-        # All four are drawn; a box has the fewest corners, eight with three normals each.
+        # All four are drawn. A box has the fewest corners: eight with three normals each.
         self.assertEqual(self.script("return Math.min(...scene.bodies.map(m => m.geometry.attributes.position.count))"), 24)
         self.assertEqual(self.script("return scene.bodies.length"), 4)
 
@@ -370,7 +370,7 @@ class Page(Browser):
             self.assertRegex(self.browser.find_element(By.ID, "detail").text, r"Closest at way point\n\d")
             self.assertEqual(self.script("return document.querySelectorAll('.figure.good').length"), good)
             self.assertEqual("within 900 mm" in self.browser.find_element(By.ID, "figures").text, not good)
-            # The chart stands off the window's edge, and none of its text is cut off.
+            # The chart is away from the window's edge, and none of its text is cut off.
             self.assertTrue(self.script("""
               const box = document.getElementById('trajectory'), edge = box.getBoundingClientRect();
               return edge.left > 5 && [...box.querySelectorAll('text')].map(t => t.getBoundingClientRect()).every(
@@ -379,7 +379,7 @@ class Page(Browser):
         self.assertEqual(self.script("return document.querySelectorAll('.figure.good').length"), 0)
 
     def test_a_pair_that_is_not_decided_is_not_called_clear(self):
-        # A ball rolls on a floor, 0 away to rounding; a box above it stays clear.
+        # A ball rolls on a floor, with a distance of 0 up to rounding. A box above it stays clear.
         slide = ('<joint name="{0}" type="prismatic"><parent link="{1}"/><child link="{2}"/><axis xyz="{3}"/>'
                  '<limit lower="-1" upper="1" effort="1" velocity="1"/></joint>')
         shape = '<link name="{}"><collision><origin xyz="0 0 {}"/><geometry>{}</geometry></collision></link>'
@@ -397,7 +397,7 @@ class Page(Browser):
         self.assertTrue(any(re.fullmatch(r"closest: 0 mm at \d\.\d{3} s", text) for text in chart), chart)
         states = self.states()
         self.assertEqual([state for state in states if "floor" in state], [["foot", "floor", "not decided"], ["arm", "floor", "clear"]])
-        # A contact of another pair ends the proof: of the ball nothing more is known.
+        # A contact of another pair ends the proof, so nothing more is known of the ball.
         wall = shape.format("wall", 0.6, '<box size="2 1 0.1"/>')
         both = self.put("both.urdf", '<robot name="ground">' + shape.format("floor", -0.05, '<box size="4 4 0.1"/>') + wall
                         + '<joint name="w" type="fixed"><parent link="floor"/><child link="wall"/></joint></robot>')
@@ -417,12 +417,12 @@ class Page(Browser):
                                      '{"link": "m", "target": {"position": [0.5, 0, 0.2]}, "free": ["rx", "ry", "rz"]}]}')
         find_posture = os.path.join(os.path.dirname(PROGRAM), "find_posture")
         done = subprocess.run([find_posture, urdf, task, "--no-cache", "--format", "html", "-o", self.path("report.html")], capture_output=True, text=True)
-        self.assertEqual(done.returncode, 1, done.stderr)  # 1 cm beside what the joints reach
+        self.assertEqual(done.returncode, 1, done.stderr)  # the target is 1 cm outside the reach of the joints
         self.show()
         rows = self.script("return [...document.querySelectorAll('#tasktable tbody tr')].map(r => [...r.children].map(c => c.textContent))")
         self.assertEqual(rows, [["high", "10.000", "0.0000"], ["m", "0.000", "free"]])
         self.assertIn("target", self.browser.find_element(By.ID, "marks").text)
-        self.assertEqual(self.script("return scene.marks.children.length"), 2 + 2 + 2)  # axes of one, dots of both
+        self.assertEqual(self.script("return scene.marks.children.length"), 2 + 2 + 2)  # axes of one target, dots of both
         pixels = self.script("""
           scene.draw();
           const from = scene.canvas, to = document.createElement('canvas');
@@ -486,7 +486,7 @@ class Page(Browser):
         self.assertEqual(self.script("return scene.bodies.filter(m => m.visible).length"), 2)
 
     def test_a_page_without_pairs_opens(self):
-        # The tools refuse to report nothing; a page whose data has no pairs must still open.
+        # The tools refuse an empty report, but a page whose data has no pairs must still open.
         self.humanoid()
         self.reopen(lambda data: data["pairs"].clear())
         self.assertIn("no pairs", self.browser.find_element(By.ID, "nothing").text)

@@ -19,7 +19,7 @@ def slide(name, parent, child, origin):
             '<axis xyz="1 0 0"/><limit lower="-1" upper="1" effort="1" velocity="1"/></joint>')
 
 
-# Two balls that slide towards each other from 1 m apart: they meet where both have gone 0.4 m or more.
+# Two balls that slide towards each other from 1 m apart. They meet after each has moved by at least 0.4 m.
 ROBOT = ('<robot name="two"><link name="base"/><link name="left">' + BALL + '</link><link name="right">' + BALL + '</link>' +
          slide("l", "base", "left", "0 0 0") + slide("r", "base", "right", "1 0 0") + "</robot>")
 WALL = ('<robot name="scene"><link name="wall"><collision><origin xyz="5 0 0"/><geometry><box size="0.1 9 9"/></geometry></collision>'
@@ -83,7 +83,7 @@ class Postures(unittest.TestCase):
             told = self.report("--srdf", srdf, "--pose", "away", "--obstacles", scene, status=status)
             if status == 2:
                 self.assertIn("virtual joint 'v'", told)
-            self.report("--srdf", srdf, "--pose", "away", status=0)  # where the base is changes nothing
+            self.report("--srdf", srdf, "--pose", "away", status=0)  # the position of the base changes nothing
 
     def test_a_name_of_a_state_and_of_a_file_is_refused(self):
         srdf = self.srdf(state("home", "one", l=0.5))
@@ -95,7 +95,7 @@ class Postures(unittest.TestCase):
             self.assertIn(f"{option} home: is a state of the SRDF and a file; give ./home",
                           self.report("--srdf", srdf, option, "home", status=2))
         pairs = self.report("--srdf", srdf, "--pose", "./home", status=0)["pairs"]
-        self.assertAlmostEqual(pairs[0]["distance"], 1.3, delta=1e-6)  # of two balls, 1.5 m from centre to centre
+        self.assertAlmostEqual(pairs[0]["distance"], 1.3, delta=1e-6)  # two balls whose centres are 1.5 m apart
         os.remove("home")
         self.assertAlmostEqual(self.report("--srdf", srdf, "--pose", "home", status=0)["pairs"][0]["distance"], 0.3, delta=1e-6)
 
@@ -148,7 +148,7 @@ class Postures(unittest.TestCase):
                            ('{"neutral": {"better": {"l": 0.5}}, "r": 0}', "'r' is no key of a collision report; remove it"),
                            ('{"neutral": {"beter": {"l": 0.5}}}', "neutral: 'beter' is no key of what a collision report says of it; did you mean 'better'?")):
             self.assertIn(told, self.report("--pose", self.put("beside.json", text), status=2))
-        self.urdf = self.put("q.urdf", ROBOT.replace('"l"', '"q"'))  # a joint of that name
+        self.urdf = self.put("q.urdf", ROBOT.replace('"l"', '"q"'))  # a joint with this name
         self.colliding("--pose", self.put("own.json", '{"q": 0.5, "r": -0.5}'))
 
     def test_a_byte_order_mark_is_no_letter_of_a_name(self):
@@ -170,13 +170,13 @@ class Postures(unittest.TestCase):
         self.urdf = self.put("timed.urdf", ROBOT.replace('"r"', '"time"'))
         said = self.report("--trajectory", self.put("motion.csv", "time,l\n0,0\n0.5,0\n"), status=2)
         self.assertIn("'time' is a joint", said)
-        # JSON has a place of its own for the times.
+        # JSON has a separate place for the times.
         points = [[0, 0], [-0.5, 0.5]]
         for text in ({"joints": ["time", "l"], "points": points, "time": [0, 2]},
                      {"joint_names": ["time", "l"], "points": [{"positions": q, "time_from_start": 2.0 * k} for k, q in enumerate(points)]}):
             found = self.colliding("--trajectory", self.put("motion.json", json.dumps(text)))["trajectory"]
             self.assertTrue(found["timed"])
-            self.assertAlmostEqual(found["contact"]["time"], 1.6, delta=1e-5)  # both have gone 0.4 m
+            self.assertAlmostEqual(found["contact"]["time"], 1.6, delta=1e-5)  # both have moved by 0.4 m
         self.urdf = self.put("robot.urdf", ROBOT)
         for name, text in (("motion.json", '{"joints": ["time", "l"], "points": [[0, 0], [1, 0.1]]}'), ("motion.csv", "Time,l\n0,0\n1,0.1\n")):
             self.assertRegex(self.report("--trajectory", self.put(name, text), status=2), "no moving joint '[Tt]ime'")

@@ -36,7 +36,7 @@ def robot(*first):
 
 
 def readable(text, form):
-    """The output of a format; of a page, what its packed report says."""
+    """The output in a format; for a page, the text of its packed report."""
     if form != "html":
         return text
     return page_text(text)
@@ -122,7 +122,7 @@ class Doors(unittest.TestCase):
                             '<child link="right"/><axis xyz="0 0 1"/><limit lower="0" upper="3.14" effort="1" velocity="1"/>'
                             '</joint></robot>')
             done = self.run_tool(REPORT, path, "--skip-invalid", "--samples", "200", "--format", "srdf")
-            self.assertEqual(done.returncode, status, done)  # without any shape in between the two are adjacent
+            self.assertEqual(done.returncode, status, done)  # without a shape in between, the two links are adjacent
             self.assertNotIn("disable_collisions", done.stdout)
 
     def test_csv_has_all_columns_for_a_shape_left_out_too(self):
@@ -159,7 +159,7 @@ class Doors(unittest.TestCase):
             self.refused_to_write(output, POSTURE, urdf, self.task, *files)
         with open(urdf, encoding="utf-8") as file:
             self.refused_to_write(urdf, REPORT, "-", stdin=file)
-        # A robot or a scene from a pipe names its meshes only when it has been read.
+        # The meshes of a robot or a scene from a pipe are known only after it was read.
         absolute = self.put("absolute.urdf", robot(f'<mesh filename="{meshes[0]}"/>'))
         for command in (f"cat {absolute} | {REPORT} - --samples 20 -q", f"{POSTURE} <(cat {absolute}) {self.task} -q",
                         f"{REPORT} {self.good} --obstacles <(cat {absolute}) --samples 20 -q"):
@@ -182,13 +182,13 @@ class Doors(unittest.TestCase):
         binary = self.put("binary.urdf", robot('<mesh filename="body.gltf"/>'))
         self.assertEqual(self.run_tool(REPORT, binary, "--samples", "20").returncode, 0)
         self.refused_to_write(buffer, REPORT, binary)
-        # The SRDF is updated, and only that.
+        # Only the SRDF may be updated.
         self.refused_to_write(urdf, REPORT, urdf, *files, "--format", "srdf")
         done = self.run_tool(REPORT, urdf, "--srdf", srdf, "--samples", "20", "--format", "srdf", "-o", srdf)
         self.assertEqual(done.returncode, 0, done.stderr)
         with open(srdf, encoding="utf-8") as file:
             self.assertIn("disable_collisions", file.read())
-        # What is no input may be replaced.
+        # A file that is not an input may be replaced.
         self.assertEqual(self.run_tool(REPORT, urdf, "--samples", "20", "-o", way).returncode, 0)
 
     def refused_to_write(self, output, *command, **options):
@@ -240,7 +240,8 @@ class Doors(unittest.TestCase):
             self.refused(POSTURE, self.good, self.put("bad.json", task), names=["bad.json"])
 
     def test_what_would_put_links_where_nothing_can_be_checked_is_refused(self):
-        # A second document's bodies would be lost, an axis of 1e200 has no length, and at 1e300 no distance exists.
+        # The bodies of a second document would be lost, an axis of 1e200 has no length, and at 1e300 there is
+        # no distance.
         cases = {"1e300 0 0": ("1 0 0", "within 1e6 m"), '<box size="1e300 1 1"/>': ('<sphere radius="0.1"/>', "at most 1e6 m"),
                  '<axis xyz="1e200 0 1e200"/><limit': ("<limit", "axis has no direction"),
                  'lower="2e6" upper="3e6"': ('lower="-1" upper="1"', "between -1e6 and 1e6"),

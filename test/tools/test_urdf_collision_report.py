@@ -33,7 +33,7 @@ def joint(name, parent, child, kind="revolute", origin="0 0 0"):
 class Report(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        """A cache for the robots that many tests ask for: built once. Robots of a single test have its own."""
+        """A cache for the robots that many tests use, so that they are built once. Robots of a single test have their own."""
         cls.shared = tempfile.TemporaryDirectory()
         cls.addClassCleanup(cls.shared.cleanup)
 
@@ -59,7 +59,7 @@ class Report(unittest.TestCase):
         return self.run_tool(ROBOT + ".urdf", "--srdf", ROBOT + ".srdf", "--samples", "20", *arguments)
 
     def slider(self):
-        """Two balls of 5 cm: `moving` slides along x from 1 m away towards `still`; a third one far off."""
+        """Two balls of 5 cm: `moving` slides along x from 1 m away towards `still`. A third ball is far away."""
         ball = '<sphere radius="0.05"/>'
         return self.robot(link("root") + link("still", ball) + link("moving", ball) + link("far", ball)
                           + joint("turn", "root", "still") + joint("spin", "root", "far", origin="0 9 0")
@@ -72,7 +72,7 @@ class Report(unittest.TestCase):
                              self.put(name, text), *arguments)
 
     def test_a_trajectory_that_collides_between_its_way_points_names_time_and_pair(self):
-        # The balls touch 0.08 m before the middle: 0.92 m of 2 m, in 4 s.
+        # The balls touch 0.08 m before the middle: after 0.92 m of 2 m, which take 4 s.
         for name, text in [("way.csv", "time,slide\n1,0\n5,2\n"),
                            ("way.json", '{"joints": ["slide"], "points": [[0], [2]], "time": [1, 5]}'),
                            ("ros2.json", '{"header": {"frame_id": ""}, "joint_names": ["slide"], "points": [{"positions": [0], "velocities": [], '
@@ -88,7 +88,7 @@ class Report(unittest.TestCase):
             self.assertAlmostEqual(found["contact"]["time"], 2.84, delta=5e-6)
             self.assertEqual({found["contact"]["link1"], found["contact"]["link2"]}, {"still", "moving"})
             pair = next(p for p in report["pairs"] if {p["link1"], p["link2"]} == {"still", "moving"})
-            self.assertAlmostEqual(pair["distance"], -0.04, delta=1e-6)  # right above each other
+            self.assertAlmostEqual(pair["distance"], -0.04, delta=1e-6)  # exactly above each other
             self.assertAlmostEqual(pair["time"], 3, delta=0.01)
             self.assertLessEqual(found["steepest_approach"], 0.5)  # m/s
             self.assertGreater(found["steepest_approach"], 0.49)
@@ -97,7 +97,8 @@ class Report(unittest.TestCase):
             self.assertIn(f" way points: {verdict}, at (", self.follow(name, text).stdout)
 
     def test_the_pair_of_the_first_contact_comes_first_with_the_times_beside(self):
-        # A ball grazes one in its way after 0.4 m, 1 mm deep at 0.5 m, and runs into the middle of another one at 1 m.
+        # A ball grazes another one after 0.4 m, is 1 mm deep in it at 0.5 m, and hits the middle of a third
+        # one at 1 m.
         ball = '<sphere radius="0.05"/>'
         robot = self.robot(link("root") + link("grazed", ball) + link("hit", ball) + link("moving", ball)
                            + joint("g", "root", "grazed", origin="0.5 0.099 0") + joint("h", "root", "hit", origin="1 0 0")
@@ -119,8 +120,8 @@ class Report(unittest.TestCase):
         self.assertEqual((page[0]["link1"], page[0]["link2"]), ("grazed", "moving"))
 
     def test_a_touch_that_is_not_decided_hides_no_contact_of_another_pair(self):
-        # A ball comes down onto a table, 0 away to rounding, and rolls along it against another ball: centres 0.3 m
-        # apart, 0.1 m of it in height, where x = 0.8 - sqrt(0.08).
+        # A ball comes down onto a table, with a distance of 0 up to rounding, and rolls along it against
+        # another ball. The centres are 0.3 m apart then, with 0.1 m of height, at x = 0.8 - sqrt(0.08).
         def slide(name, parent, child, axis, origin):
             return (f'<joint name="{name}" type="prismatic"><parent link="{parent}"/><child link="{child}"/><origin xyz="{origin}"/>'
                     f'<axis xyz="{axis}"/><limit lower="-2" upper="2" effort="1" velocity="1"/></joint>')
@@ -130,7 +131,7 @@ class Report(unittest.TestCase):
                            + joint("w", "table", "still", "fixed", "0.8 0 0.2") + slide("x", "table", "m", "1 0 0", "0 0 0")
                            + slide("z", "m", "ball", "0 0 1", "0 0 0.1"))
         srdf = self.put("table.srdf", '<robot name="t"><disable_collisions link1="table" link2="still"/></robot>')
-        path = self.put("roll.csv", "time,x,z\n0,-0.5,+0.2\n1,-0.5,0\n2,0.8,0\n")  # with a plus sign, as printf writes it
+        path = self.put("roll.csv", "time,x,z\n0,-0.5,+0.2\n1,-0.5,0\n2,0.8,0\n")  # with a plus sign, as printf may write it
         arguments = ["--primitives", "flat", "--samples", "20", "--srdf", srdf, "--trajectory", path]
         whole = json.loads(self.run_tool(table, *arguments, "--format", "json").stdout)
         verdicts = {(pair["link1"], pair["link2"]): pair["verdict"] for pair in whole["pairs"]}
@@ -159,7 +160,8 @@ class Report(unittest.TestCase):
                                       r"before: the distance is the margin to rounding\n$")
 
     def test_a_pair_set_aside_does_not_hide_that_the_others_were_not_followed(self):
-        # A ball comes down onto a table; then an arm turns 100,000 times past a post, each time 1 mm off it.
+        # A ball comes down onto a table. Then an arm turns 100,000 times past a post, each time at a distance
+        # of 1 mm.
         slide = ('<joint name="z" type="prismatic"><parent link="table"/><child link="ball"/><origin xyz="0 0 0.1"/><axis xyz="0 0 1"/>'
                  '<limit lower="-2" upper="2" effort="1" velocity="1"/></joint>')
         spin = '<joint name="spin" type="continuous"><parent link="table"/><child link="arm"/><origin xyz="0 9 0"/><axis xyz="0 0 1"/></joint>'
@@ -177,7 +179,7 @@ class Report(unittest.TestCase):
         report = json.loads(self.run_tool(*arguments, "--format", "json").stdout)["trajectory"]
         self.assertEqual((report["verdict"], report["free_until"]), ("undecided", report["undecided"][0]["time"]))
         self.assertTrue(1 <= report["followed_until"] < 2)
-        # Each pair has a verdict of its own, in front of a contact of another one and behind it.
+        # Each pair has its own verdict, before and after a contact of another pair.
         for z, collides in ((0, False), (-0.05, True)):
             self.put("spin.csv", f"time,z,spin\n0,0.2,0\n1,{z},0\n2,{z},314159.3\n")
             page = page_data(self.run_tool(*arguments, "--format", "html").stdout)
@@ -196,14 +198,14 @@ class Report(unittest.TestCase):
         self.assertIsNone(json.loads(self.follow("way.csv", text, "--format", "json").stdout)["trajectory"]["contact"])
         page = self.follow("way.csv", text, "--format", "html").stdout
         self.assertIn('aria-label="Least distance over time"', page)
-        said = page_data(page)["trajectory"]  # what the page's head says
+        said = page_data(page)["trajectory"]  # the text in the page's head
         self.assertEqual((os.path.basename(said["file"]), said["verdict"]), ("way.csv", "proven free"))
-        # Within the margin asked for it is not: 0.1166 m apart at the third way point, less 0.1.
+        # With the given margin it is not free: 0.1166 m apart at the third way point, minus 0.1.
         self.assertEqual(self.follow("way.csv", text, "--margin", "0.0167").returncode, 1)
         self.assertEqual(self.follow("way.csv", text, "--margin", "0.0165").returncode, 0)
 
     def test_the_chart_has_the_closest_approach_and_the_contact_however_short(self):
-        # There and back in a second of 2000: between the even times of the chart.
+        # There and back within a second of 2000, between the even times of the chart.
         text = "time,slide\n0,0\n1001,0\n1001.5,1\n1002,0\n2000,0\n"
         report = json.loads(self.follow("way.csv", text, "--format", "json").stdout)
         chart = report["trajectory"]["chart"]
@@ -286,7 +288,8 @@ class Report(unittest.TestCase):
         for margin, warned in (("0", False), ("-0.01", True)):
             said = self.run_tool(self.slider(), "--primitives", "flat", "--samples", "20", "--margin", margin).stderr
             self.assertEqual("the margin is negative: what overlaps by less than 0.01 m counts as clear" in said, warned, said)
-        # With the warning of the pairs without a smooth body it stands below the file's name, which is said once.
+        # With the warning about pairs without a smooth body it is printed below the file's name, which
+        # appears once.
         self.assertRegex(said, r"^urdf_collision_report: \S+robot\.urdf:\n  the margin is negative: .*\n  3 checked pairs have no smooth body")
 
     def test_an_arm_that_comes_no_nearer_has_no_time_of_its_fastest_approach(self):
@@ -295,7 +298,7 @@ class Report(unittest.TestCase):
         self.assertEqual((way["steepest_pair"], way["steepest_time"], way["steepest_approach"]), (None, None, 0))
 
     def test_the_hull_of_an_obstacle_has_all_corners_of_its_mesh(self):
-        # A lens so flat that the tip on it is inside its volume: a cube ends 1 mm above the tip.
+        # A lens so flat that the tip on it is inside its volume. A cube ends 1 mm above the tip.
         ring = [(0.2 * math.cos(math.pi * i / 4), 0.2 * math.sin(math.pi * i / 4), 0) for i in range(8)]
         lens = "".join(f"v {x:.9f} {y:.9f} {z}\n" for x, y, z in ring + [(0, 0, 0.008), (0, 0, -0.05)])
         lens += "".join(f"f {i + 1} {(i + 1) % 8 + 1} 9\nf {(i + 1) % 8 + 1} {i + 1} 10\n" for i in range(8))
@@ -325,7 +328,8 @@ class Report(unittest.TestCase):
         self.assertEqual(first["distance"], report["summary"]["min_distance"])
         gap = [b - a for a, b in zip(first["point1"], first["point2"])]
         self.assertAlmostEqual(math.hypot(*gap), first["distance"], delta=1e-12)
-        # Along the normal the smooth gap and both over-covers make up the hulls' gap, which their distance exceeds.
+        # Along the normal, the smooth gap and both over-covers add up to the hulls' gap. The hulls' distance
+        # is larger.
         covered = first["distance"] + first["over_cover1"] + first["over_cover2"]
         self.assertLessEqual(covered, first["hull_distance"] + 1e-12)
         self.assertTrue(first["gradient"])
@@ -375,7 +379,7 @@ class Report(unittest.TestCase):
         pairs = [p for p in json.loads(done.stdout)["pairs"] if p["obstacle"]]
         self.assertEqual(len(pairs), 30)
         self.assertTrue(all(p["checked"] and p["closest"] for p in pairs))
-        # Without a posture the search looks for the closest configuration of each.
+        # Without a posture, the search finds the closest configuration of each pair.
         searched = json.loads(self.humanoid("--obstacles", scene, "--format", "json").stdout)
         hand = {p["link1"]: p for p in searched["pairs"] if p["obstacle"]}["LARM_LINK6"]
         self.assertEqual(hand["reason"], "sometimes")
@@ -389,7 +393,7 @@ class Report(unittest.TestCase):
             scene = self.put("scene.urdf", '<robot name="scene">' + link("floor") + "".join(
                 link(f"ball{i}", ball) + joint(f"to{i}", "floor", f"ball{i}", "fixed", at) for i, at in enumerate(places)) + "</robot>")
             done = self.run_tool(robot, "--samples", "20", "--obstacles", scene, "--format", "json")
-            self.assertEqual(done.returncode, 0, done.stderr)  # what is checked is clear
+            self.assertEqual(done.returncode, 0, done.stderr)  # the checked pairs are clear
             return [w for w in json.loads(done.stdout)["warnings"] if "obstacle" in w]
 
         self.assertEqual(warnings("0 0 0.09"), [f"{robot}: 'base' meets the obstacle 'ball0'; no joint moves it, so this pair is "
@@ -409,7 +413,7 @@ class Report(unittest.TestCase):
     def test_advice_gives_each_link_the_radii_that_its_task_asks_for(self):
         task = "clearance=0.03,acceleration=2,speed=0.2,turning=0.5"
         done = self.humanoid("--pose", "zero", "--advise", task, "--format", "json")
-        self.assertEqual(done.returncode, 1, done.stderr)  # some of the links meet there
+        self.assertEqual(done.returncode, 1, done.stderr)  # some links collide in this posture
         report = json.loads(done.stdout)
         self.assertNotIn("no r and R", str(report["warnings"]))
         for body in report["links"]:
@@ -510,7 +514,7 @@ class Report(unittest.TestCase):
         self.assertEqual(posed["title"], "self-collision report")
 
     def test_what_only_hulls_make_collide_does_not_hide_behind_contacts(self):
-        # Six boxes in another one's post, and one in the gap between the posts.
+        # Six boxes in the post of another one, and one box in the gap between the posts.
         gate = self.boxes("gate.obj", 0.1, (-0.3, 0, 0), (0.3, 0, 0))
         small = "".join(link(f"in{i}", self.boxes(f"in{i}.obj", 0.01, (0.3 + 0.025 * (i % 2), 0.025 * (i // 2), 0))) for i in range(6))
         robot = self.robot(link("gate", gate) + link("turn") + small + link("gap", self.boxes("gap.obj", 0.05, (0, 0, 0)))
@@ -526,7 +530,7 @@ class Report(unittest.TestCase):
         self.assertIn("meshes: the distance of the meshes themselves, 0 where they meet\n-: the volumes are far enough apart\n", whole)
         self.assertIn("\nmeshes: the distance", cut)
         self.assertNotIn("\n-: ", cut)
-        clear = self.humanoid("--pose", "half_sitting").stdout  # nothing collides: hulls, and why pairs are checked
+        clear = self.humanoid("--pose", "half_sitting").stdout  # nothing collides: the text shows hulls, and why pairs are checked
         self.assertRegex(clear, r"\n *STP-BV +hulls +cover\b.*\npair .* reason .*\n")
         self.assertNotRegex(clear, r"\n[a-z ]+, .* pairs?:\n")  # one list
         allowed = self.humanoid("--margin", "-0.5").stdout  # nothing collides, but hulls overlap
@@ -548,7 +552,7 @@ class Report(unittest.TestCase):
         told = f"{states}: leaves out no pair of links, so 2 pairs of adjacent or rigidly joined ones are checked too; "
         self.assertIn(told, self.run_tool(urdf, "--srdf", states).stderr)
         self.assertNotIn("leaves out no pair", self.run_tool(urdf).stderr)
-        made = self.run_tool(urdf, "--srdf", states, "--format", "srdf", "-o", states)  # this mends it
+        made = self.run_tool(urdf, "--srdf", states, "--format", "srdf", "-o", states)  # this adds the missing pairs
         self.assertNotIn("leaves out no pair", made.stderr)
         self.assertEqual(made.returncode, 1)
         self.assertIn(f"urdf_collision_report: {states} is written: 0 of 3 pairs left out before, 2 now; "
@@ -558,7 +562,7 @@ class Report(unittest.TestCase):
         self.assertIn("urdf_collision_report: 2 of 3 pairs left out; exit", self.run_tool(urdf, "--format", "srdf").stderr)
         self.assertEqual(self.run_tool(urdf, "--format", "srdf", "-q").stderr, "")
         self.assertNotIn("leaves out no pair", self.run_tool(urdf, "--srdf", states).stderr)
-        # Two arms that no joint makes neighbours: an SRDF without a pair is as good as none.
+        # Two arms that no joint makes neighbours: an SRDF without pairs gives no warning.
         ball = '<sphere radius="0.1"/>'
         apart = self.robot(link("root") + link("a", ball) + link("b", ball) + joint("j", "root", "a") + joint("k", "root", "b", origin="9 0 0"))
         none = self.put("none.srdf", '<robot name="small"/>')
@@ -621,7 +625,7 @@ class Report(unittest.TestCase):
         self.assertNotIn("neutral", again.stderr)
         self.assertEqual({p["reason"] for p in json.loads(again.stdout)["pairs"]}, {"adjacent", "sometimes"})
         bare = json.loads(self.run_tool(urdf, "--format", "json").stdout)
-        whole = self.put("report.json", json.dumps(bare))  # the report itself names the posture
+        whole = self.put("report.json", json.dumps(bare))  # a report may name the posture
         mended = self.run_tool(urdf, "--neutral", whole, "--format", "json")
         self.assertEqual(json.loads(mended.stdout)["neutral"], {"colliding": 0})
         self.assertIn("proposes no neutral posture", self.run_tool(urdf, "--neutral", self.put("good.json", mended.stdout)).stderr)
@@ -679,13 +683,13 @@ class Report(unittest.TestCase):
                            + joint("j", "a", "b") + link("c", '<box size="1 1 1"/>') + joint("k", "b", "c", origin="9 0 0"))
         os.mkdir(os.path.join(self.folder.name, "published"))
         corners = [(x, y, z) for x in (-0.1, 0.1) for y in (-0.1, 0.1) for z in (-0.1, 0.101)]
-        corners.append((0, 0, 0))  # inside: no vertex
+        corners.append((0, 0, 0))  # inside, so it is no vertex
         self.put("published/first-ch.txt", "3\n%d 0 0\n" % len(corners) + "".join("%g %g %g\n" % c for c in corners))
         arguments = [robot, "-r", "0.01", "--samples", "5", "--polyhedra", os.path.join(self.folder.name, "published")]
         report = json.loads(self.run_tool(*arguments, "--format", "json").stdout)
         found = report["links"][0]["polyhedron"]
         self.assertEqual((found["vertices"], found["without_partner"], found["mesh_without_partner"]), (8, 4, 4))
-        self.assertAlmostEqual(found["surface_difference"], 0.001, delta=1e-6)  # the lid's, but for its curvature
+        self.assertAlmostEqual(found["surface_difference"], 0.001, delta=1e-6)  # the height of the lid, except for its curvature
         self.assertEqual([link["polyhedron"] for link in report["links"][1:]], [None, None])
         text = self.run_tool(*arguments).stdout
         self.assertIn("1 mesh has a published polyhedron", text)
@@ -703,9 +707,9 @@ class Report(unittest.TestCase):
 
     def test_a_collision_is_explained_by_the_meshes(self):
         srdf, pose = self.put("none.srdf", '<robot name="small"/>'), self.put("pose.json", "{}")
-        gate = self.boxes("gate.obj", 0.1, (-0.3, 0, 0), (0.3, 0, 0))  # its hull spans the gap of 0.4 m
+        gate = self.boxes("gate.obj", 0.1, (-0.3, 0, 0), (0.3, 0, 0))  # its hull covers the gap of 0.4 m
         far = self.boxes("far.obj", 0.01, (5, 0, 0))
-        # Where the small box is: its distance from the gate, and why the volumes meet.
+        # By position of the small box: its distance from the gate, and why the volumes meet.
         cases = {(0, 0, 0): (0.15, "hull only"), (0, 0, 0.155): (None, "margin only"), (0.3, 0.14, 0): (0, "meshes meet"),
                  (0.3, 0, 0): (0, "meshes meet"), (0.3, 0.155, 0): (0.005, "margin only"), (0.3, 0, 0.4): (None, "")}
         for middle, (distance, cause) in cases.items():
@@ -718,7 +722,8 @@ class Report(unittest.TestCase):
             self.assertEqual(done.returncode, 1 if cause else 0)
             self.assertEqual(report["summary"]["causes"], {cause: 1} if cause else {})
             self.assertEqual(pair["lipschitz"], 50)
-            # The volumes' distance and what they exceed the meshes by hold the truth between them.
+            # The true distance is between the volumes' distance and that plus the amounts by which they
+            # exceed the meshes.
             self.assertEqual(pair["mesh_distance_most"] is None, bool(cause))
             if not cause:
                 apart = 0.4 - 0.15  # along z
@@ -732,7 +737,7 @@ class Report(unittest.TestCase):
         self.assertLessEqual({"cause", "mesh_distance"}, set(rows[0]))
 
     def slides_through_a_gate(self):
-        """A box that slides through the gap of a gate of two posts and never comes closer to them than 0.15 m."""
+        """A box that slides through the gap of a gate with two posts and never comes closer to them than 0.15 m."""
         gate = self.boxes("gate.obj", 0.1, (-0.3, 0, 0), (0.3, 0, 0))
         return (self.robot(link("gate", gate) + link("box", self.boxes("box.obj", 0.05, (0, 0, 0)))
                            + link("far", self.boxes("far.obj", 0.1, (5, 0, 0), (5.4, 0, 0)))
@@ -750,22 +755,23 @@ class Report(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stderr)
         report = json.loads(done.stdout)
         pair = next(p for p in report["pairs"] if {p["link1"], p["link2"]} == {"gate", "box"})
-        # The post's side is 0.15 m away from the box's; r of both lies between, and what a part and its volume exceed.
+        # The post's side is 0.15 m away from the box's. The r of both lies in between, and what a part and
+        # its volume exceed.
         covers = sum(l["over_cover_max"] or 0 for l in report["links"] if l["name"] in ("gate:1", "box"))
         self.assertLessEqual(pair["min_distance"], 0.15 - 0.02 + 1e-6)
         self.assertGreater(pair["min_distance"], 0.15 - covers - 1e-3)
-        # Only the gate is split, in two, and only for this pair: one row more.
+        # Only the gate is split, into two parts, and only for this pair: one more row.
         self.assertEqual([l["name"] for l in report["links"] if "part_of" in l], ["gate:1", "gate:2"])
         self.assertEqual([p["by_parts"] for p in report["pairs"] if p is not pair], [False, False])
         rows = report["summary"]["rows"]
         self.assertEqual((rows["whole"], rows["parts"]), (3, 4))
-        self.assertEqual(rows["hand_over"], 5)  # one more for the pair taken by parts
+        self.assertEqual(rows["hand_over"], 5)  # one more for the pair that uses parts
         self.assertLessEqual(rows["hand_over_live"], 5)
         text = self.run_tool(*robot, "--parts", "auto").stdout
         self.assertIn("gate in 2 parts", text)
         self.assertRegex(text, r"\nrows of a controller: 3 with whole bodies, \d+\.\d us a tick;\n  4 with parts, \d+\.\d us;\n"
                                r"  5 with hand-over to parts below 0\.1 m, \d of these rows not constant there, \d+\.\d us\n")
-        # Everything in parts says the same of this pair, at more rows.
+        # With everything in parts the result for this pair is the same, with more rows.
         every = json.loads(self.run_tool(*robot, "--parts", "2", "--format", "json").stdout)
         same = next(p for p in every["pairs"] if {p["link1"], p["link2"]} == {"gate", "box"})
         self.assertAlmostEqual(same["min_distance"], pair["min_distance"], delta=1e-6)
@@ -779,7 +785,7 @@ class Report(unittest.TestCase):
 
         def report(*arguments):
             found = json.loads(self.run_tool(*robot, *arguments).stdout)
-            for times in (found["summary"], found["summary"]["rows"]):  # measured anew each time
+            for times in (found["summary"], found["summary"]["rows"]):  # these are measured again each time
                 for name in [n for n in times if "us_per" in n or "ns_per" in n]:
                     del times[name]
             return found
@@ -841,7 +847,7 @@ class Report(unittest.TestCase):
         self.assertIn("No link needs to be split", done.stdout)
 
     def test_pairs_that_no_parts_clear_are_named(self):
-        # A bar of 6 mm through a ring around it: the parts' hulls still overlap the hole.
+        # A bar of 6 mm through a ring: the hulls of the parts still cover the hole.
         ring = [(math.cos(a), math.sin(a)) for a in (2 * math.pi * i / 48 for i in range(48))]
         points = [(x * radius, y * radius, z) for radius in (0.0035, 0.1) for z in (-0.05, 0.05) for x, y in ring]
         quads = [(a * 48 + i, a * 48 + (i + 1) % 48, b * 48 + (i + 1) % 48, b * 48 + i)

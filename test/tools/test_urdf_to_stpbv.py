@@ -19,7 +19,7 @@ from xml.etree import ElementTree
 import numpy as np
 
 PROGRAM, REPORT = sys.argv[1:3]
-# The programs' readers of meshes keep single precision: 6e-8 of coordinates of up to 1 m, with some room.
+# The programs' mesh readers have single precision: 6e-8 for coordinates of up to 1 m, plus a margin.
 ROUNDING = 2e-7
 
 
@@ -49,7 +49,7 @@ def read_obj(path):
 
 
 def outside(points, hull):
-    """How far points are beyond the planes of a convex mesh that faces outward, at most; below 0 inside."""
+    """Largest distance of points outside the planes of a convex mesh that faces outwards; negative if all are inside."""
     vertices, faces = hull
     a, b, c = (vertices[faces[:, i]] for i in range(3))
     normals = np.cross(b - a, c - a)
@@ -80,7 +80,7 @@ class Conversion(unittest.TestCase):
         return done.returncode, json.loads(done.stdout)
 
     def gate(self):
-        """A box that slides through a gate of two posts; a fork that turns beside them; visuals, a capsule, a scale."""
+        """A box that slides through a gate of two posts, and a fork that turns beside them; with visuals, a capsule and a scale."""
         (self.place / "gate.obj").write_text(box_obj(0.1, (-0.3, 0, 0), (0.3, 0, 0)))
         (self.place / "box.obj").write_text(box_obj(50, (0, 0, 0)))
         (self.place / "fork.obj").write_text(box_obj(0.05, (0, 0, 0), (0.3, 0, 0.02), (0.6, 0, 0.05)))
@@ -105,7 +105,7 @@ class Conversion(unittest.TestCase):
         return json.loads((self.out / "manifest.json").read_text())
 
     def states(self, folder):
-        """What tells whether a file was written again."""
+        """Data that show whether a file was written again."""
         return {str(p.relative_to(folder)): (p.stat().st_mtime_ns, p.stat().st_ino, p.read_bytes())
                 for p in folder.rglob("*") if p.is_file()}
 
@@ -136,14 +136,14 @@ class Conversion(unittest.TestCase):
             for hull in hulls:
                 self.assertLess(np.max(outside(hull[0], hull)), 1e-12)
             self.assertLess(np.max(np.min([outside(points, hull) for hull in hulls], axis=0)), ROUNDING)
-            # Each mesh is boxes: how far a point is from them is known.
+            # Each mesh consists of boxes, so the distance of a point from them is known.
             boxes = [(vertices[i:i + 8].min(axis=0), vertices[i:i + 8].max(axis=0)) for i in range(0, len(vertices), 8)]
             for hull, part in zip(hulls, entry["parts"]):
                 points = (pick @ hull[0][hull[1][rng.integers(len(hull[1]), size=2000)]])[:, 0]
                 far = np.min([np.linalg.norm(np.maximum(0, np.maximum(low - points, points - high)), axis=1)
                               for low, high in boxes], axis=0)
                 self.assertLessEqual(np.max(far), part["hull_excess_max"] + ROUNDING)
-                self.assertLess(part["hull_excess_max"], 2e-4)  # each box is a part, to what the bound is known to
+                self.assertLess(part["hull_excess_max"], 2e-4)  # each box is a part, up to the accuracy of the bound
                 self.assertGreaterEqual(part["over_cover_max"], part["r"])
             self.assertAlmostEqual(entry["excess_max"], entry["hull_excess_max"]
                                    + max(part["over_cover_max"] for part in entry["parts"]), places=12)
@@ -162,12 +162,12 @@ class Conversion(unittest.TestCase):
         for pair in after["pairs"]:
             same = pairs[key(pair)]
             self.assertEqual((pair["reason"], pair["checked"], pair["cause"]), (same["reason"], same["checked"], same["cause"]))
-            # The search ends where it likes within its own tolerance, at meshes that differ in their last digits.
+            # The search ends anywhere within its tolerance, and the meshes differ in their last digits.
             self.assertAlmostEqual(pair["min_distance"], same["min_distance"], delta=1e-5)
         srdf = self.run_tool(urdf, "-r", "0.01", "--samples", "50", "--parts", "4", "--format", "srdf", tool=REPORT)
         self.assertEqual((self.out / "gate.srdf").read_text(), srdf.stdout)
         self.assertIn("disable_collisions", srdf.stdout)
-        # The volumes in the folder are those of the report.
+        # The volumes in the folder are the same as in the report.
         vertices = {l["name"]: l["vertices"] for l in before["links"] if l.get("vertices")}
         entry = next(e for e in self.manifest()["links"] if e["body"] == "gate")
         self.assertEqual([p["vertices"] for p in entry["parts"]], [vertices["gate:1"], vertices["gate:2"]])
@@ -196,8 +196,8 @@ class Conversion(unittest.TestCase):
         self.assertEqual(old.keys(), new.keys())
         self.assertEqual({name.split("/")[1].split("_2_")[0] for name in old if old[name] != new[name]}, {"my_fork"})
         now = self.states(self.folder / "cache")
-        self.assertEqual({name: now[name] for name in kept}, kept)  # nothing of the others was written again
-        # Other options are another robot.
+        self.assertEqual({name: now[name] for name in kept}, kept)  # none of the others was written again
+        # Other options make another robot.
         self.assertIn("convex parts", self.convert("--parts", "4", "-r", "0.02").stdout)
 
     def test_files_that_are_the_users_are_never_replaced(self):
@@ -206,7 +206,7 @@ class Conversion(unittest.TestCase):
         (self.out / "notes.txt").write_text("mine")
         self.refused(self.convert(), str(self.out), "holds files that no conversion wrote")
         (self.out / "notes.txt").unlink()
-        self.assertEqual(self.convert().returncode, 0)  # an empty folder is as good as none
+        self.assertEqual(self.convert().returncode, 0)  # an empty folder is accepted like a missing one
         for name in ("notes.txt", "meshes/package.xml"):
             (self.out / name).write_text("mine")
             for force in ((), ("--force",)):
@@ -220,7 +220,7 @@ class Conversion(unittest.TestCase):
         self.assertEqual(self.convert("--force").returncode, 0)
         self.assertNotIn("mine", srdf.read_text())
         self.assertEqual([p.name for p in self.folder.iterdir() if p.name.startswith(".")], [])
-        # The robot itself is not written over.
+        # The robot itself is not overwritten.
         self.refused(self.run_tool(self.place / "gate.urdf", "-o", self.place), "lies in it")
         self.refused(self.run_tool(self.place / "gate.urdf", "-o", self.folder), "lies in it")
         for name, target, says in (("input", self.place / "gate.urdf", "is a file, expected a folder"),
@@ -261,7 +261,7 @@ class Conversion(unittest.TestCase):
         self.assertEqual(left_out.returncode, 3, left_out.stderr)
         self.assertIn("fork.obj", left_out.stderr)
         self.assertIn("fork.obj", self.manifest()["left_out"][0])
-        self.assertEqual(self.convert("--skip-invalid").returncode, 3)  # up to date, and still not whole
+        self.assertEqual(self.convert("--skip-invalid").returncode, 3)  # up to date, but still incomplete
         for wrong in (("--parts", "0"), ("--parts", "65"), ("--parts", "some"), ("--jobs", "0"), ("-r", "-1"), ("--effort", "1")):
             self.assertEqual(self.convert(*wrong).returncode, 2, wrong)
 
@@ -290,7 +290,7 @@ class Conversion(unittest.TestCase):
         self.assertIn("sphere", text)
         self.assertNotIn("scale", text)
         found = self.run_tool(self.out / "gate.urdf", "--visual", "--samples", "5", tool=REPORT)
-        self.assertIn("no pair of bodies is checked", found.stderr)  # there is a single visual shape, and it was found
+        self.assertIn("no pair of bodies is checked", found.stderr)  # the only visual shape was found
         self.convert("--parts", "2", "--mesh-prefix", "package://gate/")
         self.assertIn('filename="package://gate/meshes/gate_1.obj"', (self.out / "gate.urdf").read_text())
         self.refused(self.convert("--mesh-prefix", "package://gate"), "package://gate: expected a / at its end")
@@ -378,7 +378,7 @@ class Conversion(unittest.TestCase):
             '<axis xyz="0 1 0"/><limit lower="-2" upper="0" effort="1" velocity="1"/></joint></robot>')
         done = self.convert("--parts", "2", "-r", "0.01", "--neutral", str(self.pose({"slide": -1.2})))
         self.assertEqual(done.returncode, 0, done)
-        self.assertIn("0 of 1 pairs checked", done.stdout)  # the two are adjacent
+        self.assertIn("0 of 1 pairs checked", done.stdout)  # the two links are adjacent
         self.assertEqual(self.manifest()["pairs"]["checked"], 0)
         text = (self.place / "gate.urdf").read_text().replace(
             "</robot>", '<link name="far"><visual><geometry><box size="1 1 1"/></geometry></visual></link><joint name="j" '
@@ -397,7 +397,7 @@ class Conversion(unittest.TestCase):
         return path
 
     def start_and_wait_for_parts(self, count):
-        """A conversion that takes seconds, and what tells of the parts that it has put into the cache: so many at least."""
+        """Starts a conversion that takes seconds, and waits until at least `count` parts are in the cache."""
         urdf = self.gate()
         links = "".join('<link name="l%d"><collision><geometry><mesh filename="many%d.obj"/></geometry></collision></link>'
                         '<joint name="k%d" type="revolute"><parent link="gate"/><child link="l%d"/><origin xyz="0 %d 0"/>'

@@ -1,4 +1,4 @@
-// Builds the volume of as many random points on a sphere as asked for: what instructions_per_point counts.
+// Builds the volume of a number of random points on a sphere. instructions_per_point counts its instructions.
 #include "fcl_stpbv/volume/stp_bv.h"
 #include "test/reference/arguments.h"
 #include "test/reference/shapes.h"

@@ -1,4 +1,4 @@
-// What a built volume is: its features, its surface, and what the builder refuses.
+// A built volume: its features, its surface, and what the builder refuses.
 #include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -38,7 +38,7 @@ struct Named {
   Cloud points;
 };
 
-// Small enough for the brute-force reference.
+// Clouds that are small enough for the brute-force reference.
 std::vector<Named> smallClouds() {
   Cloud flat = randomHull(14, {0.3, 0.2, 0.1}, 5);
   for (Vector3d& p : flat) p.z() = 0;
@@ -79,16 +79,16 @@ TEST_CASE("The support function equals the definition by all pairs and triples o
         const long double expected = bruteSupport(cloud.points, 0.01, R, n);
         worst = std::max(worst, static_cast<double>(std::abs(volume->support(n) - expected)));
       }
-      // Ours rounds coordinates of up to 4 m; the reference's slack of 1e-17 rho^2 moves its centres by 1e-17
-      // rho, more by the ratio of rho to a face's size.
+      // The library rounds coordinates of up to 4 m. The reference's slack of 1e-17 rho^2 moves its centres
+      // by 1e-17 rho, times the ratio of rho to a face's size.
       CHECK(worst <= 2e-15 * (1 + R));
     }
   }
 }
 
 TEST_CASE("An edge that turns by a little more than half a turn owns all its normals") {
-  // Flat obtuse triangles: the longest side turns by half a turn and more, the less so the larger R. Around
-  // the plate's normals that side is what is highest.
+  // Flat obtuse triangles. The longest side turns by half a turn or more; the larger R, the less. Around the
+  // plate's normals the longest side is the highest feature.
   for (const double apex : {0.03, 0.05, 0.08, 0.095, 0.0999})
     for (const double R : {1.0, 10.0, 100.0, 1e4, 1e6}) {
       INFO("apex " << apex << ", R = " << R);
@@ -151,7 +151,7 @@ TEST_CASE("Clouds of fewer than three dimensions give a sphere, a spindle and a 
 }
 
 TEST_CASE("Two vertices may be joined by two edges near the smallest radius") {
-  // The spindle of the two far points is bitten on two opposite sides only.
+  // Only two opposite sides cut into the spindle of the two far points.
   const Cloud points{{-1, 0, 0}, {1, 0, 0}, {0, 0.8, 0}, {0, -0.8, 0}};
   const StpBv::Ptr volume = StpBv::build(points, {0, 1.05});
   CHECK(countsOf(*volume) == Counts{4, 6, 4});
@@ -186,7 +186,7 @@ TEST_CASE("Points inside and points closer than rounding drop out") {
     points.push_back({random.uniform(-0.1, 0.1), random.uniform(-0.2, 0.2), random.uniform(-0.3, 0.3)});
   for (int i = 0; i < 8; ++i)
     points.push_back(points[static_cast<std::size_t>(i)] + 1e-17 * random.direction());
-  for (int i = 0; i <= 10; ++i)  // a subdivided face, its inner points off the plane by rounding
+  for (int i = 0; i <= 10; ++i)  // a subdivided face whose inner points are off the plane by rounding
     for (int j = 0; j <= 10; ++j)
       points.push_back({-0.1 + 0.02 * i, -0.2 + 0.04 * j, 0.3 + 1e-17 * random.normal()});
   for (const double R : {0.6, 10.0, 1e4})
@@ -220,7 +220,7 @@ TEST_CASE("The builder says what is wrong with its input and what would work") {
   CHECK_THROWS_WITH(StpBv::build(good, {0.01, 0.3}), Catch::Contains("smallest usable R") &&
                                                          Catch::Contains("0.3841657") &&
                                                          !Catch::Contains("millimetres"));
-  const double side = 600;  // of a link in other units
+  const double side = 600;  // a link's side in other units
   CHECK_THROWS_WITH(StpBv::build({{0, 0, 0}, {side, 0, 0}, {0, side, 0}}),
                     Catch::Contains("smallest usable R") && Catch::Contains("424.26") &&
                         Catch::Contains("are they in millimetres?"));
@@ -300,7 +300,7 @@ TEST_CASE("Radii are refused from where faces are flat to rounding, and right ju
       const Vector3d n = random.direction();
       double hull = -std::numeric_limits<double>::infinity();
       for (const Vector3d& p : cloud.points) hull = std::max(hull, n.dot(p));
-      // The bulge is a part of the rounding, which is a few sums of two products here.
+      // The bulge is smaller than the rounding, which comes from a few sums of two products here.
       CHECK(std::abs(volume->support(n) - hull - 0.01) <= 16 * eps * size);
     }
   }
@@ -355,7 +355,7 @@ TEST_CASE("A volume assembled from its own parts is the same and damaged parts a
   moved[5] *= 0.5;
   CHECK_THROWS_WITH(StpBv::assemble(moved, volume->faces(), {0.01, 10}),
                     Catch::Contains("outside the ball of face"));
-  // Vertices that coincide, or nearly, are on each other's balls.
+  // Vertices that coincide, or almost, are on each other's balls.
   const StpBv::Ptr cube = StpBv::build(box(0.1, 0.1, 0.1));
   for (const double apart : {0.0, 1e-200, 1e-12, 1e-6})
     for (std::size_t i = 1; i < 8; ++i) {
@@ -414,8 +414,8 @@ TEST_CASE("Points that rounding has moved off a box's sides build a volume that 
 }
 
 TEST_CASE("A ball that rolls over an edge between near-duplicates does not roll past the other points") {
-  // The fourth and fifth point are 4.6e-15 m apart, a few units in their last place: the ball that rests on
-  // both and on the third rolls by 4.1 rad over their edge, and on the way it meets the first point.
+  // The fourth and fifth point are 4.6e-15 m apart, a few units in their last place. The ball that rests on
+  // both and on the third point rolls by 4.1 rad over their edge, and meets the first point on its way.
   const Cloud points{{-0x1.82fd693293821p-3, 0x1.b9f36bf5a56cbp-4, -0x1.e40d9efe3526ep-3},
                      {0x1.4ea898180702cp-3, -0x1.06046452da5bap-4, 0x1.9d8f4416a4376p-3},
                      {0x1.83f9a1a804cb7p-4, -0x1.5ec654ea23624p-2, -0x1.be20325ded32p-8},
@@ -428,7 +428,7 @@ TEST_CASE("A ball that rolls over an edge between near-duplicates does not roll 
 }
 
 TEST_CASE("Two pairs of near-duplicates as far apart as the ball allows build a volume that verifies") {
-  // R and points: clouds that the roll alone refuses, from the random ones of test/fuzz/clouds.cpp.
+  // R and points of clouds that rolling alone refuses, from the random clouds of test/fuzz/clouds.cpp.
   const std::vector<std::pair<double, Cloud>> cases = {
       {0x1.03800052a3d16p-8,
        {{-0x1.6ed106376c606p-15, 0x1.6a86b32bb6effp-8, -0x1.c7dd1f42d04acp-11},

@@ -1,4 +1,4 @@
-// Over-cover, volume, signed distance and tessellation against closed forms, sampling and each other.
+// Over-cover, volume, signed distance and tessellation, compared with closed forms, sampling and each other.
 #include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -53,8 +53,8 @@ std::vector<Cloud> clouds() {
           randomHull(60, {0.3, 0.2, 0.1}, 2)};
 }
 
-// Points on a circle as a file with few digits holds them: every three fix a ball of their own, and the faces
-// of both sides are slivers.
+// Points on a circle with few digits, as in a file. Every three points determine their own ball, and the
+// faces on both sides are slivers.
 Cloud roundedDisc(int points, double radius, double unit) {
   Cloud cloud;
   for (int k = 0; k < points; ++k) {
@@ -65,7 +65,7 @@ Cloud roundedDisc(int points, double radius, double unit) {
   return cloud;
 }
 
-// Height of the surface over y along d by halving a ray, from the sign of the point's distance alone.
+// Height of the surface over y along d, by halving a ray. Only the sign of the point's distance is used.
 double halvedHeight(const StpBv& volume, const Vector3d& y, const Vector3d& d) {
   double low = 0, high = 2 * (volume.enclosingRadius() + (y - volume.centre()).norm());
   for (int round = 0; round < 60; ++round) {
@@ -85,7 +85,7 @@ TEST_CASE(
   const double printed = R - std::sqrt((R - r) * (R - r) - a * a / 12);
   CHECK(bound == Approx(0.0101668).margin(1e-7));
   CHECK(printed == Approx(0.0100417).margin(1e-7));
-  double highest = 0;  // a sampled surface point over the middle
+  double highest = 0;  // the highest sampled surface point over the middle
   for (int i = 0; i <= 40; ++i)
     for (int j = 0; j <= 40; ++j) {
       const Vector3d n = Vector3d((i - 20) * 1e-4, (j - 20) * 1e-4, 1).normalized();
@@ -113,13 +113,14 @@ TEST_CASE("The largest over-cover is the largest difference of the support funct
         if (excess(n) > excess(best)) best = n;
       }
       for (const Vector3d& a :
-           cloud)  // the normals of all planes through three points, the hull's faces among them
+           cloud)  // the normals of all planes through three points, which include those of the hull's faces
         for (const Vector3d& b : cloud)
           for (const Vector3d& c : cloud) {
             const Vector3d n = (b - a).cross(c - a);
             if (n.norm() > 1e-9 && excess(n.normalized()) > excess(best)) best = n.normalized();
           }
-      double step = 0.1;  // polished by ever smaller random steps: the maximum is a ridge or a corner
+      // Refined by smaller and smaller random steps, because the maximum is at a ridge or a corner.
+      double step = 0.1;
       for (int k = 0; k < 6000; ++k, step *= 0.998) {
         const Vector3d n = (best + step * random.direction()).normalized();
         if (excess(n) > excess(best)) best = n;
@@ -147,7 +148,7 @@ TEST_CASE("The height of the surface over a point of the hull agrees with halvin
       for (int k = 0; k < trials(100); ++k) {
         Vector3d y = Vector3d::Zero();
         double sum = 0;
-        for (const Vector3d& p : cloud) {  // anywhere in the hull, near a side of it more often than not
+        for (const Vector3d& p : cloud) {  // random points in the hull, mostly near one of its sides
           const double weight = std::pow(random.uniform(0, 1), 20);
           y += weight * p, sum += weight;
         }
@@ -155,27 +156,28 @@ TEST_CASE("The height of the surface over a point of the hull agrees with halvin
         const Vector3d d = k % 4 == 0 ? Vector3d::UnitZ() : random.direction();
         const SurfaceHeight over = surfaceHeight(*volume, y, d);
         INFO(cloud.size() << " points, r = " << radii.r << ", R = " << R << ", ray " << k);
-        // Halving ends where the distance's rounding, a few units of rho's normals, hides its sign.
+        // Halving ends when the rounding of the distance, a few units of rho's normals, hides its sign.
         CHECK(std::abs(over.height - halvedHeight(*volume, y, d)) <= 1e-14 + 4e-16 * R);
-        // Measured, seeds 4 to 7: half of the rays take 2 or fewer with r > 0 and 3 with r = 0, the worst 32
-        // and 84. The search by planes, for what patches alone do not tell, gives up at 400.
+        // Measured with the seeds 4 to 7: half of the rays take at most 2 planes with r > 0 and 3 with r = 0;
+        // the worst take 32 and 84. The search by planes, for cases that patches alone do not decide, gives
+        // up at 400.
         CHECK(over.planes <= 120);
       }
     }
 }
 
 TEST_CASE("Measuring a disc whose coordinates were rounded takes few planes a point") {
-  // Patches continued past their regions send a search from the top to the bottom and back; each point then
-  // cost sixty looks at every patch.
+  // Patches that continue beyond their regions send a search from the top to the bottom and back. Each point
+  // then needed sixty looks at every patch.
   const Cloud cloud = roundedDisc(1000, 0.1, 1e-6);
   const StpBv::Ptr volume = StpBv::build(cloud);
-  REQUIRE(volume->faceCount() > 1000);  // slivers, not one face a side
+  REQUIRE(volume->faceCount() > 1000);  // slivers, not one face on each side
   int most = 0, hint = -1;
   for (const Vector3d& p : cloud)
     for (const double part : {0.0, 0.3, 0.9, 1.0}) {
       const SurfaceHeight over = surfaceHeight(*volume, part * p, Vector3d::UnitZ(), hint);
       hint = over.patch, most = std::max(most, over.planes);
-      // Over the disc lies the ball through its rim.
+      // Over the disc, the surface is the ball through its rim.
       const double rho = volume->radii().rho, sag = rho - std::sqrt(rho * rho - 0.01);
       CHECK(over.height <= 0.01 + sag + 1e-7);
       CHECK(over.height >= 0.01 - 1e-15);
@@ -204,7 +206,7 @@ TEST_CASE("The mean over-cover of a box agrees with a fine grid over its sides")
       sum += heights / (kGrid * kGrid) * size[b] * size[c];
       area += size[b] * size[c];
     }
-    // The grid's own error is that of the midpoint rule, (1/40)^2 of the sag or so.
+    // The grid's own error is that of the midpoint rule, about (1/40)^2 of the sagitta.
     CHECK(overCover(*volume, cloud).mean == Approx(sum / area).epsilon(1e-3));
   }
 }
@@ -212,8 +214,7 @@ TEST_CASE("The mean over-cover of a box agrees with a fine grid over its sides")
 TEST_CASE("The enclosed volume agrees with closed forms") {
   CHECK(enclosedVolume(*StpBv::build({{1, 2, 3}}, {0.05, 1})) ==
         Approx(4 * kPi / 3 * 0.05 * 0.05 * 0.05).epsilon(1e-13));
-  // A huge R makes the box a box rounded by r: Steiner's formula. What R adds
-  // is its over-cover times the area.
+  // With a huge R the volume is a box rounded by r: Steiner's formula. R adds its over-cover times the area.
   const double a = 0.2, b = 0.4, c = 0.6, r = 0.01;
   const double steiner =
       a * b * c + 2 * r * (a * b + b * c + c * a) + kPi * r * r * (a + b + c) + 4 * kPi / 3 * r * r * r;
@@ -234,7 +235,7 @@ TEST_CASE("The enclosed volume agrees with closed forms") {
     sum += kPi * height * height;
   }
   CHECK(enclosedVolume(*spindle) ==
-        Approx(sum * 2 * (half + r) / slices).epsilon(1e-9));  // the midpoint rule's own error
+        Approx(sum * 2 * (half + r) / slices).epsilon(1e-9));  // the error of the midpoint rule
 }
 
 TEST_CASE("The enclosed volume of a huge R is the hull's") {
@@ -248,7 +249,7 @@ TEST_CASE("The enclosed volume of a huge R is the hull's") {
           hull += corner(ring[0]).dot(corner(ring[k - 1]).cross(corner(ring[k]))) / 6;
         }
       INFO(cloud.size() << " points, R = " << R);
-      // R adds its over-cover, size^2 / R, times the area: 1e-8 of the volume at 1e8, and rounding.
+      // R adds its over-cover, size^2 / R, times the area: 1e-8 of the volume at R = 1e8, plus rounding.
       CHECK(enclosedVolume(*volume) == Approx(hull).epsilon(1 / R + 1e-14));
     }
 }
@@ -263,7 +264,7 @@ TEST_CASE("The tessellation is closed, lies on the surface and closes in on the 
       CHECK(isClosed(fine));
       double off = 0;
       for (const Vector3d& x : coarse.vertices) off = std::max(off, std::abs(signedDistance(*volume, x)));
-      CHECK(off <= 2e-14);  // rounding of the points and of their distance, whatever R
+      CHECK(off <= 2e-14);  // rounding of the points and of their distance, for any R
       const double exact = enclosedVolume(*volume), rough = meshVolume(coarse, volume->centre());
       const double smooth = meshVolume(fine, volume->centre());
       CHECK(rough <= exact * (1 + 1e-12));
@@ -294,7 +295,7 @@ TEST_CASE("The tessellation is closed and shows where edges bulge, with slivers,
         INFO(cloud.size() << " points, r = " << r << ", R = " << R);
         CHECK_FALSE(mesh.triangles.empty());
         CHECK(isClosed(mesh));
-        // The least is a spindle's with r = 0: two cones.
+        // The smallest ratio is that of a spindle with r = 0: two cones.
         CHECK(meshVolume(mesh, volume->centre()) > 0.6 * enclosedVolume(*volume));
       }
 }
@@ -307,15 +308,15 @@ TEST_CASE("Near the smallest R the tessellation is closed and agrees with the en
       const TriangleMesh mesh = tessellate(*volume, 0.1);
       INFO(cloud.size() << " points, R " << beyond << " beyond the smallest");
       CHECK(isClosed(mesh));
-      // Triangles of 0.1 rad both ways lie 0.1^2 / 6 of the radius inside a sphere on average, thrice that of
-      // its volume.
+      // Triangles of 0.1 rad in both directions lie 0.1^2 / 6 of the radius inside a sphere on average, which
+      // changes its volume by three times that.
       CHECK(meshVolume(mesh, volume->centre()) == Approx(enclosedVolume(*volume)).epsilon(0.005));
     }
   }
 }
 
 TEST_CASE("Points nearly twice there move the signed distance and the support as little as they differ") {
-  // Rims whose edges lie between faces in one plane and do not turn.
+  // Rims whose edges lie between faces in one plane, so that the surface does not turn at them.
   for (const double apart : {3e-9, 1e-8, 3e-8})
     for (const int corners : {4, 8, 12}) {
       Cloud once, twice;
@@ -328,7 +329,8 @@ TEST_CASE("Points nearly twice there move the signed distance and the support as
       const StpBvOptions options{0, 1.4};
       const StpBv::Ptr disc = StpBv::build(once, options), doubled = StpBv::build(twice, options);
       INFO(corners << " corners, " << apart << " m apart");
-      const double most = 3 * apart;  // the points move by `apart`, the faces between them by some more
+      // The points move by `apart`, and the faces between them by slightly more.
+      const double most = 3 * apart;
       Random random(3);
       for (int k = 0; k < 100; ++k) {
         const Vector3d p = k < corners ? once[static_cast<std::size_t>(k)]
@@ -343,7 +345,7 @@ TEST_CASE("Points nearly twice there move the signed distance and the support as
 
 TEST_CASE(
     "The over-cover of a drum with thousands of sides is that of a cylinder, and takes no exact numbers") {
-  // Half a minute where a ball was rolled over the drum in place of quickhull.
+  // Half a minute when a ball was rolled over the drum instead of quickhull.
   constexpr int kSides = 3000;
   Cloud cloud;
   for (int k = 0; k < kSides; ++k)
@@ -353,7 +355,7 @@ TEST_CASE(
   const double R = volume->radii().R, rho = volume->radii().rho;
   const OverCover cover = overCover(*volume, cloud);
   CHECK(cover.max == Approx(R - std::sqrt(rho * rho - 1)).epsilon(1e-9));
-  // Over a lid a ball, over the wall a torus, each on half of the area.
+  // The surface is a ball over a lid and a torus over the wall. Each has half of the area.
   const double lid = (R * R * R - std::pow(R * R - 1, 1.5)) / 1.5 - std::sqrt(rho * rho - 1),
                wall =
                    0.5 * std::sqrt(R * R - 0.25) + R * R * std::asin(0.5 / R) - std::sqrt(rho * rho - 0.25);
@@ -361,7 +363,7 @@ TEST_CASE(
 }
 
 TEST_CASE("Edges without normals of their own move no vertex off the surface") {
-  // Some ulps beyond the smallest R a side of a box is two triangles on one ball.
+  // Some ulps above the smallest R, a side of a box is two triangles on one ball.
   const Cloud cloud = box(0.1, 0.9, 0.9);
   for (const double r : {0.0, 0.02}) {
     double R = StpBv::smallestR(cloud, r);
@@ -388,7 +390,7 @@ TEST_CASE("The signed distance of points on an edge's line, and next to its ends
   Random random(12);
   for (const double R : {1.5, 10.0, 1e3})
     for (int k = 0; k < 200; ++k) {
-      // Along a spindle's axis the surface is a circle of radius R about a point beside it.
+      // Along a spindle's axis, the surface is a circle of radius R about a point beside the axis.
       const Vector3d a = random.direction(), b = random.direction();
       const double r = 0.01, rho = R - r, half = 0.5 * (b - a).norm(),
                    kappa = std::sqrt(rho * rho - half * half);
@@ -399,7 +401,7 @@ TEST_CASE("The signed distance of points on an edge's line, and next to its ends
       INFO("R = " << R << ", point " << k);
       CHECK(std::abs(signedDistance(*spindle, p) + rest / (R + std::hypot(kappa, along))) <= 2e-15);
 
-      // The core's arc over an edge, next to the edge's end: r below the surface.
+      // A point on the core's arc over an edge, next to the edge's end: r below the surface.
       const Cloud cloud = randomHull(6, {0.3, 0.3, 0.3}, static_cast<std::uint64_t>(k));
       const StpBv::Ptr volume = StpBv::build(cloud, {r, R});
       const int edge = random.below(volume->edgeCount());
@@ -427,7 +429,7 @@ TEST_CASE("The signed distance of a point agrees with steps along normals and wi
             volume->centre() + 0.6 * volume->enclosingRadius() * random.uniform(0, 1) * random.direction();
         const double exact = signedDistance(*volume, p);
         const auto beyond = [&](const Vector3d& n) { return n.dot(p) - volume->support(n); };
-        // Inside the volume there are several local maxima, most of them near normals of faces.
+        // Inside the volume there are several local maxima, most of them near face normals.
         std::vector<Vector3d> starts;
         for (int f = 0; f < volume->faceCount(); ++f)
           starts.push_back(volume->patch(volume->facePatch(f)).axis);
@@ -437,7 +439,8 @@ TEST_CASE("The signed distance of a point agrees with steps along normals and wi
         double most = -1e9;
         for (std::size_t start = 0; start < 30; ++start) {
           Vector3d best = starts[start];
-          for (double step = 0.1; step > 1e-9;) {  // longer after a success, so that it follows ridges
+          // The step grows after a success, so that the search follows ridges.
+          for (double step = 0.1; step > 1e-9;) {
             const Vector3d n = (best + step * random.direction()).normalized();
             const bool isBetter = beyond(n) > beyond(best);
             if (isBetter) best = n;
@@ -446,8 +449,8 @@ TEST_CASE("The signed distance of a point agrees with steps along normals and wi
           most = std::max(most, beyond(best));
         }
         CHECK(most <= exact + 1e-14);
-        // A normal that is off by 3e-7 rad, a multiple of the last steps, costs at most R = 10 m times its
-        // square.
+        // A normal that is off by 3e-7 rad, a multiple of the last steps, changes the result by at most R =
+        // 10 m times its square.
         CHECK(exact - most <= 1e-12);
       }
     }

@@ -1,4 +1,4 @@
-// The boundaries around every patch, from the table and from the edges themselves.
+// The boundaries around every patch, compared between the table and the edges themselves.
 #include <algorithm>
 #include <array>
 #include <catch2/catch.hpp>
@@ -19,7 +19,7 @@ namespace {
 
 using Vector = Eigen::Matrix<long double, 3, 1>;
 
-// Four products of unit numbers and their sum.
+// Rounding of four products of unit numbers and their sum.
 constexpr double kRounding = 2e-15;
 
 struct ReferenceBoundary {
@@ -28,7 +28,8 @@ struct ReferenceBoundary {
   int neighbour;
 };
 
-/// The boundaries of all patches by docs/theory.md, 3, in long double from vertices, edges and faces.
+/// The boundaries of all patches according to docs/theory.md, 3, in long double from vertices, edges and
+/// faces.
 std::vector<std::vector<ReferenceBoundary>> referenceBoundaries(const StpBv& volume) {
   std::vector<std::vector<ReferenceBoundary>> boundaries(static_cast<std::size_t>(volume.patchCount()));
   const auto at = [&](int i) -> Vector {
@@ -58,7 +59,7 @@ std::vector<std::vector<ReferenceBoundary>> referenceBoundaries(const StpBv& vol
   return boundaries;
 }
 
-/// The largest of what the boundaries give for themselves, and whether the next one is clearly less.
+/// The boundary with the largest measure, and whether the next one is clearly smaller.
 template <typename Measure>
 std::pair<Crossing, bool> most(const std::vector<ReferenceBoundary>& boundaries, const Measure& measure) {
   Crossing first{-std::numeric_limits<double>::infinity(), -1};
@@ -75,7 +76,7 @@ std::pair<Crossing, bool> most(const std::vector<ReferenceBoundary>& boundaries,
   return {first, first.past - second > 1e-9 * std::abs(first.past) + 1e-12};
 }
 
-/// A cone of many sides: a vertex and a face with more boundaries than one record holds.
+/// A cone with many sides: a vertex and a face with more boundaries than fit into one record.
 Cloud cone(int sides) {
   Cloud points{{0, 0, 0.3}};
   for (int i = 0; i < sides; ++i) {
@@ -137,14 +138,14 @@ TEST_CASE("The region boundary passed furthest and the first one ahead, four at 
         REQUIRE(std::abs(over.past - length * furthest.past) <= kRounding * length);
         if (clear) REQUIRE(over.neighbour == furthest.neighbour);
 
-        if (!(furthest.past < -1e-3)) continue;  // from inside
+        if (!(furthest.past < -1e-3)) continue;  // only from inside
         ++decided;
         const Crossing ahead = volume->tables().patches.ahead(p, pack(n), pack(h));
         const auto [first, alone] = most(boundaries, [&](const ReferenceBoundary& s) {
           return hL.dot(s.normal) / (s.limit - nL.dot(s.normal));
         });
         REQUIRE(std::abs(ahead.past - first.past) <=
-                1e-11 * (1 + std::abs(first.past)));  // rounding over 1e-3
+                1e-11 * (1 + std::abs(first.past)));  // rounding divided by 1e-3
         if (alone) REQUIRE(ahead.neighbour == first.neighbour);
       }
   }

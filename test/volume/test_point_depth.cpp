@@ -1,5 +1,5 @@
-// The depth of a point from the faces' balls alone, against the stationary normals of all patches
-// (signedDistance) and against the support function by its definition.
+// The depth of a point from the faces' balls alone, compared with the stationary normals of all patches
+// (signedDistance) and with the support function from its definition.
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -33,7 +33,7 @@ std::vector<Inside> insides() {
           {box(3e3, 2e3, 1e3), 1}};
 }
 
-/// A point of the cloud's hull, near its surface or not.
+/// A point in the cloud's hull, near its surface or not.
 Vector3d inHull(const Cloud& cloud, Random& random) {
   Vector3d sum(0, 0, 0);
   double weights = 0;
@@ -64,10 +64,10 @@ TEST_CASE("The depth from the faces' balls is the least over all patches") {
         if (!found) continue;
         ++told;
         CAPTURE(body.cloud.size(), R, k, cap);
-        // Coordinates of the body's size, a dozen operations.
+        // A dozen operations with coordinates of the body's size.
         REQUIRE(std::abs(found->depth - exact) <= 4e-15 * volume->extent());
         REQUIRE(std::abs(found->normal.norm() - 1) <= 1e-13);
-        // Along the way the body ends after the depth.
+        // Along the way out, the body ends after the depth.
         REQUIRE(std::abs(volume->support(found->normal) - body.r - found->normal.dot(p) - found->depth) <=
                 4e-15 * volume->extent());
       }
@@ -105,5 +105,5 @@ TEST_CASE("A volume without faces, a flat one and a point outside have no depth 
   const StpBv::Ptr cube = StpBv::build(box(0.2, 0.2, 0.2), {0.01, 10});
   CHECK(detail::pointDepth(*cube, {0.05, 0, 0}));
   CHECK_FALSE(detail::pointDepth(*cube, {0.15, 0, 0}));
-  CHECK_FALSE(detail::pointDepth(*cube, {0.0999, 0, 0}));  // less deep than the faces bulge
+  CHECK_FALSE(detail::pointDepth(*cube, {0.0999, 0, 0}));  // less deep than the bulge of the faces
 }

@@ -18,7 +18,7 @@ using namespace fcl_stpbv::test;
 using Eigen::Vector3d;
 
 TEST_CASE("A point a millionth of rounding off the ball is told apart from one on it") {
-  // Four corners of a rectangle lie on one ball exactly; one unit in the last place decides.
+  // Four corners of a rectangle lie exactly on one ball; one unit in the last place decides.
   const TouchingBall ball({0.1, 0.2, 0.3}, {-0.1, 0.2, 0.3}, {-0.1, -0.2, 0.3}, 10);
   REQUIRE(ball.valid());
   CHECK(ball.side({0.1, -0.2, 0.3}) == 0);
@@ -29,8 +29,8 @@ TEST_CASE("A point a millionth of rounding off the ball is told apart from one o
 }
 
 TEST_CASE("The side of a ball through a sliver is decided where quadruple precision cannot") {
-  // Three corners of a rectangle of aspect 2^-67. Its fourth corner is on every ball through them; next to
-  // it, points are off by less than 1e-43 m, along the short side.
+  // Three corners of a rectangle of aspect 2^-67. Its fourth corner is on every ball through them. Points
+  // next to it are off by less than 1e-43 m, along the short side.
   const double width = std::ldexp(1, -70), step = std::ldexp(1, -75);
   for (const double radius : {0.1, 10.0, 1e6, 1e15}) {
     const TouchingBall ball({0.125, 0, 0}, {0, 0, 0}, {0, -width, 0}, radius);
@@ -47,14 +47,14 @@ TEST_CASE("Points of one plane have the side that the integers for any points te
   Random random(7);
   int inside = 0, on = 0, outside = 0, undecided = 0;
   for (int k = 0; k < 3000; ++k) {
-    // Small multiples of two integer vectors, scaled: exactly in one plane. Every third time one vector is so
-    // short that some coordinates need more bits than the quick way has.
+    // Small multiples of two integer vectors, scaled, so that they are exactly in one plane. In a third of
+    // the cases one vector is so short that some coordinates need more bits than the fast path has.
     const double far = std::ldexp(1, k % 3 == 0 ? random.below(90) : 0);
     const auto whole = [&](int most) { return static_cast<double>(random.below(2 * most + 1) - most); };
     const Vector3d u = far * Vector3d(whole(9), whole(9), whole(9)), v(whole(9), whole(9), whole(9));
     const auto at = [&](double x, double y) { return Vector3d(std::ldexp(1, -12) * (x * u + y * v)); };
     const Vector3d a = at(0, 0), b = at(whole(5), whole(5)), c = at(whole(5), whole(5));
-    // The fourth corner of a parallelogram is on the ball where that is a rectangle.
+    // The fourth corner of a parallelogram is on the ball if the parallelogram is a rectangle.
     const Vector3d p = k % 2 == 0 ? Vector3d(b + c - a) : at(whole(5), whole(5));
     const TouchingBall ball(a, b, c, std::ldexp(far, 5));
     if (!ball.valid()) continue;
@@ -69,7 +69,7 @@ TEST_CASE("Points of one plane have the side that the integers for any points te
   }
   CAPTURE(inside, on, outside, undecided);
   CHECK(std::min({inside, on, outside, undecided}) > 10);
-  // Off the plane by the last bit.
+  // A point that is off the plane by the last bit.
   CHECK(!coplanarSide({{0, 0, 1}, {1, 0, 1}, {0, 1, 1}, 10}, {0.25, 0.25, std::nextafter(1, 2)}));
   CHECK(coplanarSide({{0, 0, 1}, {1, 0, 1}, {0, 1, 1}, 10}, {1, 1, 1}) == 0);
   CHECK(coplanarSide({{0, 0, 1}, {1, 0, 1}, {0, 1, 1}, 10}, {1, std::nextafter(1, 2), 1}) == 1);
@@ -96,8 +96,8 @@ TEST_CASE("The minimum enclosing ball is held by its points and no smaller one h
       CHECK((p - ball.centre).norm() <= ball.radius);
       if ((p - ball.centre).norm() > ball.radius * (1 - 1e-12)) held.push_back(p);
     }
-    // Moving the centre in any direction must push some holding point away:
-    // the centre is in their convex hull.
+    // Moving the centre in any direction must increase the distance of some touching point, because the
+    // centre is in their convex hull.
     for (int d = 0; d < 100; ++d) {
       const Vector3d step = 1e-3 * random.direction();
       double farthest = 0;
@@ -153,7 +153,7 @@ TEST_CASE("The rolled faces are those of the definition") {
     const double radius = minimumEnclosingBall(points).radius * (1 + std::pow(10.0, random.uniform(-4, 4)));
     CAPTURE(k, radius);
     const RolledHull rolled = rollBall(points, radius), defined = hullByDefinition(points, radius);
-    if (!rolled.faces.empty()) CHECK(rolled.vertices == defined.vertices);  // else a sphere or a spindle
+    if (!rolled.faces.empty()) CHECK(rolled.vertices == defined.vertices);  // otherwise a sphere or a spindle
     using Rings = std::set<std::vector<int>>;
     CHECK(Rings(rolled.faces.begin(), rolled.faces.end()) ==
           Rings(defined.faces.begin(), defined.faces.end()));

@@ -1,4 +1,4 @@
-// Quickhull with balls, and the local tests of what it makes.
+// Quickhull with balls, and the local tests of its results.
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -44,7 +44,7 @@ TEST_CASE("A side in double precision is the exact one") {
     REQUIRE(quick.valid() == exact.valid());
     for (int i = 0; i < 20; ++i) {
       Vector3d p = i < 10 ? Vector3d(0.3 * random.direction()) : Vector3d((a + b + c) / 3);
-      // Next to the ball: onto it along its normal, and off by little.
+      // Points next to the ball: moved onto it along its normal, and then off it by little.
       if (i >= 5) {
         p -= static_cast<double>(exact.height(p)) * exact.normalAt(p);
         p += std::pow(10, random.uniform(-18, -9)) * random.direction();
@@ -55,7 +55,7 @@ TEST_CASE("A side in double precision is the exact one") {
       CHECK(std::abs(height - static_cast<double>(exact.height(p))) <= quick.heightError(p));
     }
   }
-  CHECK(uncertain > 100);  // both ways were tried
+  CHECK(uncertain > 100);  // the test had both kinds of points
 }
 
 TEST_CASE("Quickhull finds the faces that the ball rolls onto") {
@@ -72,7 +72,7 @@ TEST_CASE("Quickhull finds the faces that the ball rolls onto") {
       case 2:
         points = geodesicSphere(0.2, 1 + k % 3);
         break;
-      default:  // inside, on the surface, and twice
+      default:  // points inside, on the surface, and duplicated
         points = onEllipsoid(100, {0.3, 0.2, 0.1}, k + 1);
         for (int i = 0; i < 200; ++i)
           points.push_back(random.uniform(0, 1) * points[static_cast<std::size_t>(random.below(100))]);
@@ -83,9 +83,9 @@ TEST_CASE("Quickhull finds the faces that the ball rolls onto") {
       const RolledHull quick = quickBallHull(points, radius), rolled = rollBall(points, radius);
       if (radius > 2 * least) REQUIRE(!quick.faces.empty());
       if (quick.faces.empty())
-        continue;  // an ellipsoid near its smallest ball is no surface of triangles alone
-      // With a small ball a point may stick out over an edge alone: then the
-      // check sends the cloud to the roll.
+        continue;  // the surface of an ellipsoid near its smallest ball does not consist of triangles only
+      // With a small ball a point may stick out over an edge only. Then the check hands the cloud to the
+      // roll.
       if (quick.vertices.size() < rolled.vertices.size()) continue;
       CHECK(quick.vertices == rolled.vertices);
       CHECK(quick.faces == rolled.faces);
@@ -94,7 +94,7 @@ TEST_CASE("Quickhull finds the faces that the ball rolls onto") {
 }
 
 TEST_CASE("The convex hull of a finely divided box has no vertex inside its flat faces but by rounding") {
-  // Every point is doubled and most lie in a flat face: turned, they are off it by their rounding.
+  // Every point is duplicated, and most lie in a flat face. After a rotation they are off it by rounding.
   constexpr int kSide = 30;
   Cloud points;
   for (int i = 0; i <= kSide; ++i)
@@ -116,15 +116,16 @@ TEST_CASE("The convex hull of a finely divided box has no vertex inside its flat
     const Vector3d& a = points[static_cast<std::size_t>(t[0])];
     const Vector3d n =
         (points[static_cast<std::size_t>(t[1])] - a).cross(points[static_cast<std::size_t>(t[2])] - a);
-    // A face as thin as rounding tells no plane.
+    // A face as thin as rounding has no reliable plane.
     if (n.norm() < 1e-6) continue;
     for (const Vector3d& p : points) CHECK(n.normalized().dot(p - a) <= 1e-15);
   }
 }
 
 TEST_CASE("A point that sticks out over the middle of an edge alone is a vertex") {
-  // The ball that rolls over the edge of a ridge leaves the point on its way, although neither of the faces'
-  // balls does: it is lower than the arc in which they meet, higher than the torus between them.
+  // The ball that rolls over the edge of a ridge meets the point on its way, although neither of the faces'
+  // balls reaches it. The point is lower than the arc in which these balls meet, and higher than the torus
+  // between them.
   const double length = 0.2, R = 1, half = 0.5 * length;
   const Cloud ridge{{-half, 0, 0}, {half, 0, 0}, {0, 0.1, -0.1}, {0, -0.1, -0.1}};
   const StpBv::Ptr without = StpBv::build(ridge, {0, R});
@@ -193,7 +194,7 @@ TEST_CASE("Points in space order are each there once") {
   for (std::size_t i = 1; i < order.size(); ++i)
     steps +=
         (points[static_cast<std::size_t>(order[i])] - points[static_cast<std::size_t>(order[i - 1])]).norm();
-  CHECK(steps < 0.05 * 500);  // the next is near: at random it would be 0.3 m on
+  CHECK(steps < 0.05 * 500);  // the next point is near; in random order it would be 0.3 m away
   std::sort(order.begin(), order.end());
   REQUIRE(order.size() == 500);
   for (int i = 0; i < 500; ++i) CHECK(order[static_cast<std::size_t>(i)] == i);
@@ -225,7 +226,7 @@ TEST_CASE("Points on a line but for rounding have its ends as their convex hull"
     }
     INFO("trial " << trial << ", width " << width);
     for (const Vector3d& p : points) {
-      // Coordinates of 2 m, and what lies across may stand for what lies along.
+      // For coordinates of 2 m. A point may differ across the direction by `width`.
       REQUIRE(along(p) > lowest - 1e-15 - width);
       REQUIRE(along(p) < highest + 1e-15 + width);
     }
@@ -233,7 +234,7 @@ TEST_CASE("Points on a line but for rounding have its ends as their convex hull"
 }
 
 TEST_CASE("Many points on the sides of one polygon have its corners as their convex hull") {
-  // Of 500 such clouds these are the ones whose faces neither quickhull nor the roll can close.
+  // Of 500 such clouds, these are the ones whose faces neither quickhull nor the roll can close.
   for (const std::uint64_t seed : {107, 130, 154, 228, 353, 406, 412, 481}) {
     Random random(seed);
     const int corners = 5 + random.below(2);
@@ -254,7 +255,7 @@ TEST_CASE("Many points on the sides of one polygon have its corners as their con
     REQUIRE(hull.faces.size() == 2);
     CHECK(hull.faces[0].size() == hull.vertices.size());
     for (int i = 0; i < corners; ++i) CHECK(std::count(hull.vertices.begin(), hull.vertices.end(), i) == 1);
-    // Every point is below the plane of each side, to the rounding of coordinates of 13 m.
+    // Every point is below the plane of each side, up to the rounding of coordinates of 13 m.
     const auto ring = hull.faces[0];
     const double turn =
         (cloud[at(ring[1])] - cloud[at(ring[0])]).cross(cloud[at(ring[2])] - cloud[at(ring[0])]).x();

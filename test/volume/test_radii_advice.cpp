@@ -1,4 +1,4 @@
-// The bounds on what two shapes add to d'', and radii from clearance and acceleration: both promises are
+// The bounds on what two shapes add to d'', and radii for a clearance and an acceleration. Both promises are
 // measured, the acceleration by differences of distances.
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -23,7 +23,7 @@ Vector3d inDisc(const Vector3d& n, double radius, Random& random) {
   return random.uniform(0, radius) * across(random.direction(), n).normalized();
 }
 
-/// A body that stands still and one that moves; at most one of them is the box.
+/// A static body and one that moves. At most one of them is the box.
 struct Pair {
   StpBv::Ptr still, moving;  // null for the box
   Shape box = Shape::boxOf({0.4, 0.3, 0.2});
@@ -39,12 +39,12 @@ struct Pair {
   }
   double r() const { return (still ? still->radii().r : 0) + (moving ? moving->radii().r : 0); }
 
-  /// Turns both and puts the second one at this distance.
+  /// Turns both randomly and puts the second one at this distance.
   void place(double apart, Random& random) {
     at.linear() = random.rotation();
     pose.linear() = random.rotation();
     pose.translation() = 3 * random.direction();
-    for (int k = 0; k < 3; ++k) {  // along its own normal a distance falls by just what the body moves
+    for (int k = 0; k < 3; ++k) {  // along its own normal, a distance falls by exactly what the body moves
       const Distance d = ask(pose);
       pose.translation() += (apart - d.distance) * d.normal;
     }
@@ -53,15 +53,16 @@ struct Pair {
 
 struct Motion {
   double apart, speed, turning;
-  double added;  // c, measured
+  double added;  // c, as measured
 };
 
-/// c of a random motion with at most these speeds, by second differences of the distance.
+/// The c of a random motion with at most these speeds, by second differences of the distance.
 Motion measure(const Pair& pair, double speed, double turning, Random& random) {
   const Distance d = pair.ask(pair.pose);
   const Vector3d n = d.normal, y = inDisc(n, turning, random);
   const Vector3d u = inDisc(n, speed, random), w = n.cross(y) + random.uniform(-1, 1) * n;
-  const Vector3d v = u + random.uniform(-0.1, 0.1) * n - w.cross(d.point[1]);  // of what is at the origin
+  // Velocity of the point at the origin.
+  const Vector3d v = u + random.uniform(-0.1, 0.1) * n - w.cross(d.point[1]);
   const double step = 2e-4 * (d.distance + pair.r()) / (0.1 + speed + 0.1 * turning);
   const auto after = [&](double t) {
     // x(t) = x + v t + w x v t^2 / 2 + ...: a screw to the second order, the rest is t^3
@@ -82,7 +83,7 @@ Cloud randomCloud(Random& random) {
   return randomHull(4 + random.below(60), half, static_cast<std::uint64_t>(random.below(100000)));
 }
 
-// Rounding of three distances of bodies within 4 m, over the step squared, and the third-order part.
+// Rounding of three distances of bodies within 4 m, divided by the step squared, plus the third-order part.
 double noiseOf(const Pair& pair, const Motion& m) {
   const double s = m.apart + pair.r(), step = 2e-4 * s / (0.1 + m.speed + 0.1 * m.turning);
   return 4e-15 / (step * step);
@@ -108,14 +109,14 @@ TEST_CASE("no motion bends the distance more than the radii, the distance and th
                  turning = random.below(4) == 0 ? 0 : random.uniform(0, 2);
     const Motion m = measure(pair, speed, turning, random);
     const ContactAcceleration bound = pair.bound(m.apart, m.speed, m.turning);
-    // The speeds change over the step by a few 1e-4 of themselves.
+    // The speeds change by a few 1e-4 of themselves over the step.
     const double slack = noiseOf(pair, m) + 1e-3 * (bound.most + std::min(-bound.least, 1.0));
     CHECK(m.added <= bound.most + slack);
     CHECK(m.added >= bound.least - slack);
     if (bound.most > 100 * slack) most = std::max(most, m.added / bound.most);
     if (bound.least < -100 * slack) least = std::max(least, m.added / bound.least);
   }
-  CHECK(most > 0.9);  // a bound that nothing comes near would bound nothing
+  CHECK(most > 0.9);  // a bound that is never approached would show nothing
   CHECK(least > 0.5);
 }
 
@@ -135,7 +136,7 @@ TEST_CASE("two balls that slide, and a big face that rocks over a plane, reach t
   CHECK(contactAcceleration(kFlatRadii, small, 0, 0, 2).least == -4);
   CHECK(contactAcceleration(kFlatRadii, small, 0, 0, 2).most == 0);
   CHECK_FALSE(std::signbit(contactAcceleration(kFlatRadii, small, 0.01, 0, 0).size()));
-  for (const double r : {0.0, 0.01, 1e8})  // where the normal follows the slide r plays no part
+  for (const double r : {0.0, 0.01, 1e8})  // where the normal follows the slide, r has no influence
     CHECK(contactAcceleration(kFlatRadii, {r, 1e8, 1e8 - r}, 0.1, 0.067, 1.3).most == 0.067 * 0.067 / 0.1);
   CHECK(contactAcceleration(kFlatRadii, kFlatRadii, 0, 1, 1).size() ==
         std::numeric_limits<double>::infinity());
@@ -168,7 +169,7 @@ TEST_CASE("advised radii keep the stated clearance and the allowed acceleration,
     if (advice.meetsBoth) {
       CHECK(advice.acceleration <= task.acceleration);
       CHECK(advice.overCover + advice.perPeriod <= task.clearance);
-      // A smaller R would lose too much, or there is no volume of it.
+      // A smaller R would lose too much clearance, or has no volume.
       const StpBvOptions rounder{advice.radii.r, 0.998 * advice.radii.R};
       if (rounder.R > StpBv::smallestR(cloud, rounder.r))
         CHECK(overCover(*StpBv::build(cloud, rounder), cloud).max + 1e-6 * task.acceleration >
@@ -254,7 +255,7 @@ TEST_CASE(
     "where no radii keep both promises the advice is within a fifth of the least acceleration, at the "
     "smallest R") {
   Random random(8);
-  RadiiTask task{0.003, 0.2, 0.3, 1.0, 0};  // a period would take its share of the clearance
+  RadiiTask task{0.003, 0.2, 0.3, 1.0, 0};  // a period would use a part of the clearance
   for (int trial = 0; trial < 8; ++trial) {
     const Cloud cloud = box(random.uniform(0.1, 0.4), random.uniform(0.1, 0.4), random.uniform(0.02, 0.2));
     task.bothRound = trial % 2 == 0;
@@ -315,7 +316,7 @@ TEST_CASE("a body that does not turn gets the smallest R that the clearance take
   const RadiiAdvice point = adviseRadii({{1, 2, 3}}, RadiiTask{0.01, 1, 0.01, 0});
   CHECK(point.meetsBoth);
   CHECK(point.radii.R < 1.01 * point.radii.r);
-  // A point without a margin may have any R; none of a robot is smaller than this.
+  // A point without a margin may have any R. No robot needs a smaller one than this.
   const RadiiAdvice sharp = adviseRadii({{1, 2, 3}}, RadiiTask{1e-3, 2, 0.3, 1, 1e-3, 0.02});
   CHECK(sharp.radii.r == 0);
   CHECK(sharp.radii.R == Approx(1e-9).epsilon(0.01));

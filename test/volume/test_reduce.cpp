@@ -1,4 +1,4 @@
-// Reduced volumes: conservative, within their budget, and of few vertices.
+// Reduced volumes: conservative, within their budget, and with few vertices.
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -56,7 +56,8 @@ TEST_CASE("A budget that no volume of these radii can keep is refused with what 
 
 namespace {
 
-// Whether the volume on these vertices, r grown until it covers the cloud with the margin, keeps the budget.
+// Whether the volume of these vertices keeps the budget, when r grows until the volume covers the cloud with
+// the margin.
 bool keeps(const Cloud& cloud, const Cloud& vertices, const StpBvOptions& options, double budget) {
   StpBvOptions grown = options;
   while (grown.r <= budget && grown.R > StpBv::smallestR(vertices, grown.r)) {
@@ -69,7 +70,7 @@ bool keeps(const Cloud& cloud, const Cloud& vertices, const StpBvOptions& option
   return false;
 }
 
-// The fewest of the cloud's own points that do, by trying all subsets.
+// The smallest number of the cloud's own points that is enough, by trying all subsets.
 int fewest(const Cloud& cloud, const StpBvOptions& options, double budget) {
   int best = static_cast<int>(cloud.size());
   for (unsigned subset = 1; subset < 1u << cloud.size(); ++subset) {
@@ -95,7 +96,7 @@ TEST_CASE("On small hulls a reduced volume has the fewest vertices in most cases
       const int best = fewest(cloud, options, own + extra);
       INFO("seed " << seed << ", budget " << own + extra);
       CHECK(found <= best + 1);
-      exact += found <= best;  // a point or a segment that is none of the cloud's may be fewer
+      exact += found <= best;  // a point or a segment that does not belong to the cloud may need fewer
       ++cases;
     }
   }
