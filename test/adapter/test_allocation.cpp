@@ -76,7 +76,9 @@ TEST_CASE("no query of an STP-BV against another geometry allocates") {
   CHECK(seen == 5000);
 }
 
-TEST_CASE("a motion fits boxes in place of merged ones once, and asking whether there are any fits none") {
+TEST_CASE(
+    "a motion fits boxes that replace merged ones only once, and the question whether there are any fits "
+    "none") {
   fcl::BVHModel<fcl::OBBRSSd> mesh;
   fcl::generateBVHModel(mesh, fcl::Cylinderd(0.1, 0.4), Eigen::Isometry3d::Identity(), 12, 12);
   const std::vector<Eigen::Vector3d> corners(mesh.vertices, mesh.vertices + mesh.num_vertices);

@@ -158,7 +158,7 @@ TEST_CASE("a box on a half space, a smooth body in a tree, touching and what has
   CHECK(contactsOf(ball, at(0), ball, at(0), 0).empty());
 }
 
-TEST_CASE("what FCL's marks call free or unknown meets nothing") {
+TEST_CASE("cells that FCL's marks call free or unknown collide with nothing") {
   const auto ball = std::make_shared<fcl::Sphered>(0.1), mark = std::make_shared<fcl::Sphered>(0.1);
   const auto body = std::make_shared<StpBvGeometry>(StpBv::build(box(0.2, 0.2, 0.2)));
   const auto mesh = meshKind<fcl::OBBRSSd>("OBBRSS").geometry;

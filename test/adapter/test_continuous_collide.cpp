@@ -245,7 +245,8 @@ TEST_CASE("objects that carry their motion, and a screw without a turn, go where
   CHECK(result.is_collide);
 }
 
-TEST_CASE("what FCL's marks call free is met by no motion, and its poses are those of the end") {
+TEST_CASE(
+    "no motion meets cells that FCL's marks call free, and the poses of the result are those of the end") {
   const fcl::Sphered ball(0.1);
   fcl::Sphered mark(0.1);
   for (const double density : {1.0, 0.5}) {

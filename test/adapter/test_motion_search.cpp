@@ -56,13 +56,13 @@ TEST_CASE("a contact is that of its pair, whatever was looked at since it was se
   CHECK((found.from >= 0.2 && found.from < 0.5));
 }
 
-TEST_CASE("a contact that was seen stands where the covers about it say that there is none") {
+TEST_CASE("a contact that was found is kept although the covers around it exclude one") {
   const MotionBracket found = search({{[](double t) { return t == 0.5 ? 0.0 : 1.0; }}}, 1e-4);
   CHECK(found.verdict == MotionVerdict::contact);
   CHECK(found.until == 0.5);
 }
 
-TEST_CASE("what grazes is undecided, and free until shortly before") {
+TEST_CASE("a grazing pair is undecided, and free until shortly before") {
   // Covers are smaller than the distance allows, as those of bodies are because of rounding.
   const auto graze = [](double t) { return std::abs(t - 1.0 / 3); };
   const MotionBracket found = search({{[](double) { return 0.2; }, graze}, 0.99}, 1e-4);
@@ -84,7 +84,7 @@ TEST_CASE("a contact just after a time at which rounding may hide it is one, and
   }
 }
 
-TEST_CASE("a contact is bracketed to 1e-12 whatever smaller tolerance is asked for") {
+TEST_CASE("a contact is bracketed to 1e-12 for any smaller tolerance") {
   for (const double tolerance : {1e-12, 1e-15, 0.0, -1.0, std::nan("")}) {
     CAPTURE(tolerance);
     const MotionBracket found = search({{[](double t) { return 0.7 - t; }}, 0.99}, tolerance);

@@ -24,7 +24,9 @@ using namespace fcl_stpbv::test;
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-TEST_CASE("what slides over a flat mesh takes few looks, however near, and one that sinks meets it in time") {
+TEST_CASE(
+    "a body that slides over a flat mesh needs few queries at any distance, and one that sinks meets it in "
+    "time") {
   const auto floor = bumpyGround<fcl::OBBRSSd>(10, 0.0);
   const fcl::Boxd crate(0.1, 0.08, 0.06);
   fcl::BVHModel<fcl::OBBRSSd> mesh;
@@ -82,7 +84,7 @@ TEST_CASE("a slide in a room and along a tree's cells takes few looks") {
 #endif
 }
 
-TEST_CASE("what moves with a mesh stays as far from it, however fast both are") {
+TEST_CASE("a body that moves with a mesh keeps its distance from it at any speed") {
   const auto floor = bumpyGround<fcl::AABBd>(10, 0.05);
   std::vector<Vector3d> points;
   Random random(9);

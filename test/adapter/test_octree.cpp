@@ -73,7 +73,7 @@ double fromCell(const Vector3d& centre, const Isometry3d& tree, const fcl::Colli
 
 }  // namespace
 
-TEST_CASE("distances, contacts and thresholds beside a map are those of its occupied cells, one by one") {
+TEST_CASE("distances, contacts and thresholds of a map are those of its occupied cells, one by one") {
   Random random(7);
   int hits = 0, apart = 0;
   for (const Marks marks : {Marks::current, Marks::stale, Marks::noFreeCells}) {

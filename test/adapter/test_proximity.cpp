@@ -175,8 +175,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "what is asked for a threshold: one bound far away, few elements near it, and none beyond the first "
-    "within") {
+    "queries for a threshold: one bound far away, few elements near it, and none after the first one within "
+    "it") {
   const auto kinds = everyKind();
   Random random(2);
   long pairs = 0, solvedBelow = 0, solvedAbove = 0, asked = 0;
@@ -244,7 +244,7 @@ TEST_CASE("balls in two simple shapes tell that these meet, and never more than 
     }
 }
 
-TEST_CASE("whatever distance says of two kinds that overlap, a threshold below 0 is judged by it") {
+TEST_CASE("a threshold below 0 is decided by the distance of two overlapping kinds") {
   const auto kinds = everyKind();
   Random random(4);
   int surfaces = 0, bodies = 0;
@@ -305,8 +305,7 @@ TEST_CASE("the remembered normal's planes answer the next question alone") {
   }
 }
 
-TEST_CASE(
-    "a pose that is none, or a geometry without anything in it, is not certainly farther than anything") {
+TEST_CASE("a pair with an invalid pose or an empty geometry is not farther than any threshold") {
   const auto kinds = everyKind();
   Isometry3d broken = Isometry3d::Identity(), scaled = Isometry3d::Identity();
   broken.translation().x() = std::nan("");

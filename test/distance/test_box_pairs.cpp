@@ -49,7 +49,7 @@ Matrix3d someTurn(Random& random) {
 
 }  // namespace
 
-TEST_CASE("Two boxes are as far apart or as deep as supports say, whatever is level") {
+TEST_CASE("Two boxes have the distance or depth that supports give, also with level faces and edges") {
   Random random(3);
   int deep = 0, exact = 0, beside = 0, outsideOne = 0;
   for (int i = 0; i < 4000; ++i) {

@@ -37,8 +37,7 @@ TestShape flatBody(const std::string& kind, const Vector3d& half, bool down, Ran
 
 }  // namespace
 
-TEST_CASE(
-    "Faces and ends that are level but for a hair have an exact distance and points opposite each other") {
+TEST_CASE("Faces and ends that are almost level have an exact distance and points opposite each other") {
   Random random(15);
   const std::vector<std::string> kinds{"box", "hull", "prism", "triangle", "cylinder"};
   std::vector<std::string> downwards = kinds;

@@ -78,7 +78,7 @@ TEST_CASE("polytopes of many vertices are as far from any shape as all of their 
   CHECK(deep > trials(200));
 }
 
-TEST_CASE("a face, an edge or a corner of a polytope is told whatever number of vertices is in it") {
+TEST_CASE("a face, an edge or a corner of a polytope is recognised for any number of vertices in it") {
   for (const int sides : {8, 31, 32, 33, 90}) {
     const Cloud cloud = cylinder(0.1, 0.3, sides);
     const Shape prism = Shape::polytopeOf(cloud.data(), static_cast<int>(cloud.size()));

@@ -62,7 +62,7 @@ TEST_CASE("vertices four at a time: their middle, the furthest from a point and 
     }
 }
 
-TEST_CASE("what a polytope's mean is said to be changes neither its ball nor whether it is valid") {
+TEST_CASE("the given mean of a polytope changes neither its ball nor whether it is valid") {
   constexpr double kInf = std::numeric_limits<double>::infinity(),
                    kNaN = std::numeric_limits<double>::quiet_NaN();
   Random random(3);

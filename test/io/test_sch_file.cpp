@@ -158,7 +158,7 @@ TEST_CASE("files of sch-creator load, with the surface they describe within thei
   }
 }
 
-TEST_CASE("what the format cannot hold is said, not written") {
+TEST_CASE("a volume that the format cannot represent is reported, not written") {
   const TemporaryFolder folder;
   const auto save = [&](const StpBv::Ptr& volume) {
     return refusal([&](const std::string& path) { saveSch(path, *volume); }, folder / "a.txt");

@@ -156,7 +156,7 @@ TEST_CASE("a missing file and a folder are refused by name") {
   CHECK(refusal(load, folder / "").find("is a folder") != std::string::npos);
 }
 
-TEST_CASE("a stream that holds back what it cannot write is told") {
+TEST_CASE("a buffered stream that cannot write is reported") {
   if (!std::filesystem::exists("/dev/full")) return;
   const auto volume = StpBv::build({{0, 0, 0}}, {0.1, 1});
   std::ofstream full("/dev/full");

@@ -96,7 +96,8 @@ TEST_CASE("two bodies with a wall between them are closed, wherever the wall's f
   }
 }
 
-TEST_CASE("a fin with two sides on a body encloses nothing, and the body what it did") {
+TEST_CASE(
+    "a fin with two sides on a body encloses nothing, and the body encloses the same space as without it") {
   TriangleMesh fin;
   fin.vertices = {{1, 0, 0}, {1, 1, 0}, {2, 1, 0}, {2, 0, 0}};
   fin.triangles = {{0, 1, 2}, {0, 2, 3}};

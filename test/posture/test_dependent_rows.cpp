@@ -146,7 +146,7 @@ TEST_CASE("a SCARA whose tool may turn leaves the last joint at its reference") 
   CHECK(posture.cost == Approx(least + 0.05 * 0.05).margin(1e-4));
 }
 
-TEST_CASE("what is asked twice is done once, at least cost") {
+TEST_CASE("a constraint that is given twice is fulfilled at the least cost") {
   Random random(5);
   const PostureScene scene = planarArm("rpy='0.4 -0.8 1.9'");
   const Kinematics kinematics(scene.robot, BaseMotion::fixed);
@@ -169,7 +169,7 @@ TEST_CASE("what is asked twice is done once, at least cost") {
   CHECK(poses >= 27);
 }
 
-TEST_CASE("what a fixed joint alone could move is no row of the model") {
+TEST_CASE("a row that only a fixed joint could move is no row of the model") {
   Random random(6);
   for (const double angle : {0.0, 0.7}) {
     const PostureScene scene = armWithFixedJoint(angle);

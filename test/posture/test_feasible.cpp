@@ -112,7 +112,7 @@ TEST_CASE("a point off a planar arm's plane is told by its row across the plane"
   }
 }
 
-TEST_CASE("a tilt that a SCARA does not have is told, and the rest of its pose holds") {
+TEST_CASE("a tilt that a SCARA cannot reach is reported, and the rest of its pose holds") {
   Eigen::Isometry3d target = at(0.5, 0.2, 0.05);
   target.linear() =
       (Eigen::AngleAxisd(0.5, Eigen::Vector3d::UnitZ()) * Eigen::AngleAxisd(0.02, Eigen::Vector3d::UnitX()))
@@ -124,7 +124,7 @@ TEST_CASE("a tilt that a SCARA does not have is told, and the rest of its pose h
   for (const char* row : {"tool x", "tool y", "tool z"}) CHECK(amountOf(posture.violations, row) < 1e-4);
 }
 
-TEST_CASE("two targets of one frame are told, each at half of what is between them") {
+TEST_CASE("two targets of one frame are reported, each violated by half of their distance") {
   const PostureScene scene = planarArm();
   for (const double apart : {1e-4, 0.01, 0.05}) {
     const Posture posture =
@@ -137,7 +137,7 @@ TEST_CASE("two targets of one frame are told, each at half of what is between th
   }
 }
 
-TEST_CASE("a point out of reach is told") {
+TEST_CASE("a point out of reach is reported") {
   const Posture posture = found(planarArm(), {position("tip", {0, 0, 1.31})});
   CHECK_FALSE(posture.feasible);
   CHECK(amountOf(posture.conflict, "tip z") == Approx(0.01).epsilon(1e-3));
@@ -286,7 +286,7 @@ TEST_CASE("a robot without joints is where it is") {
   CHECK(posture.q.size() == 0);
 }
 
-TEST_CASE("what is told to be in conflict is least: no step within the limits misses less") {
+TEST_CASE("the reported violation is the least one: no step within the limits reduces it") {
   const char* const axes[] = {"0 0 1", "0 1 0", "0.6 0 0.8", "0 1 0", "0.8 0.6 0"};
   const std::string arm = chain(5, [&](int i) {
     return "<origin xyz='0.3 0.1 0'/><axis xyz='" + std::string(axes[i]) +

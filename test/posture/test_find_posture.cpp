@@ -114,7 +114,7 @@ TEST_CASE("a robot that faces anywhere takes the can as well") {
   }
 }
 
-TEST_CASE("a task that cannot be done names what pulls against what") {
+TEST_CASE("a task that cannot be solved names the constraints that contradict each other") {
   PostureScene scene = hrp2Scene(false);
   PostureTask task = pickCan();
   task.pairs.clear();

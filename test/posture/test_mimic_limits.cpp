@@ -51,7 +51,7 @@ void checkRange(const PostureScene& scene, double lower, double upper) {
 
 }  // namespace
 
-TEST_CASE("the limits of what mimics a joint narrow its own") {
+TEST_CASE("the limits of mimic joints narrow those of the joint that they follow") {
   checkRange(followed("revolute", {limits(-0.5, 0.7) + mimics("j", 1, 0)}), -0.5, 0.7);
   checkRange(followed("revolute", {limits(-0.5, 0.7) + mimics("j", -2, 0.1)}), -0.3, 0.3);
   checkRange(followed("revolute", {limits(-9, 9) + mimics("j", -2, 0.1)}), -2, 2);
@@ -65,7 +65,7 @@ TEST_CASE("the limits of what mimics a joint narrow its own") {
   checkRange(followed("revolute", {limits(0.3, 0.3) + mimics("j", 3, 0)}), 0.1, 0.1);
 }
 
-TEST_CASE("a continuous joint takes the turn that what mimics it allows") {
+TEST_CASE("a continuous joint turns as far as its mimic joints allow") {
   checkRange(followed("continuous", {limits(-0.5, 0.7) + mimics("j", 1, 0)}), -0.5, 0.7);
   checkRange(followed("continuous", {limits(4, 5) + mimics("j", 1, 0)}), 4, 5);
   checkRange(followed("continuous", {limits(-1, 30) + mimics("j", 1, 0)}), -1, 2 * M_PI - 1);

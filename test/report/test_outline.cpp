@@ -108,7 +108,7 @@ TEST_CASE("a volume is drawn as the smooth body, not as its polyhedron") {
   }
 }
 
-TEST_CASE("a bound on the corners is kept, and what has no end is not drawn") {
+TEST_CASE("a bound on the corners is kept, and unbounded bodies are not drawn") {
   CHECK(outline(fcl::Sphered(1), 1e-9, 100).vertices.size() <= 100);
   CHECK(outline(fcl::Halfspaced(Vector3d(0, 0, 1), 0), kTolerance, kMost).triangles.empty());
 }

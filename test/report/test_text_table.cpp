@@ -35,7 +35,7 @@ TEST_CASE("A text is cut between characters, and what cannot be shown becomes a 
   CHECK(detail::fittedInto(0, "link").empty());
 }
 
-TEST_CASE("The columns of a table are as wide as what stands in them") {
+TEST_CASE("The columns of a table are as wide as their contents") {
   report::TextTable table("lrl");
   table.add({"name", "[mm]", "why"});
   table.add({kHand, "1.500", ""});

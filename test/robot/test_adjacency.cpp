@@ -110,7 +110,7 @@ TEST_CASE(
             .of("a", "b") == Joining::adjacent);
 }
 
-TEST_CASE("a link that a shape was left out of has a body, whatever is wrong with it") {
+TEST_CASE("a link with a shape that was left out counts as having a body, for any fault of the shape") {
   const std::string box = "<geometry><box size=\"1 1 1\"/></geometry>";
   const auto between = [&](const std::string& middle, bool visual) {
     std::string text = robot(link("a", kBall) + "<link name=\"m\">" + middle + "</link>" + link("b", kBall) +

@@ -185,7 +185,7 @@ TEST_CASE("next to contact, to the last bits of q, verdicts keep to the certifie
   }
 }
 
-TEST_CASE("a configuration that is none is never clear") {
+TEST_CASE("an invalid configuration is never clear") {
   const Problem p = problem(robots()[0], BaseMotion::floating);
   CollisionChecker checker(p.kinematics, p.geometry, p.pairs);
   const VectorXd q = p.kinematics->configuration(loadSrdf(robots()[0].srdf, *p.model).state("half_sitting"));
@@ -228,7 +228,9 @@ TEST_CASE("the verdict does not depend on what was asked before, nor a copy on i
   }
 }
 
-TEST_CASE("a checker without pairs, with a pair of nothing, or with a margin that is none is refused") {
+TEST_CASE(
+    "a checker without pairs, with a pair that does not exist, or with a margin that is not a number is "
+    "refused") {
   const Problem p = problem(robots()[0]);
   CHECK_THROWS_AS(CollisionChecker(p.kinematics, p.geometry, {}), Error);
   CHECK_THROWS_AS(CollisionChecker(p.kinematics, p.geometry, {{0, 1000}}), Error);

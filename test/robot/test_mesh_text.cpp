@@ -239,7 +239,7 @@ TEST_CASE("PLY as text: an element a line, and the properties that make a mesh")
                       ply("property uchar red\n" + xyz, "1 0 0 0\n255 1 0 0\n0 0 1 0\n" + face)});
 }
 
-TEST_CASE("a mesh is checked as what assimp reads it as, whatever its ending says") {
+TEST_CASE("a mesh is checked in the format in which assimp reads it, for any ending of its name") {
   const std::string stl =
       "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\n";
   for (const char* file : {"t.glb", "t.gltf", "t.xml"}) {
@@ -250,7 +250,7 @@ TEST_CASE("a mesh is checked as what assimp reads it as, whatever its ending say
   }
 }
 
-TEST_CASE("a mesh without a known ending is checked as what assimp reads it as") {
+TEST_CASE("a mesh without a known ending is checked in the format in which assimp reads it") {
   const std::string stl =
       "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1,5 0 0\nvertex 0 1 0\n";
   for (const char* file : {"t", "t.bak"}) {

@@ -256,7 +256,7 @@ TEST_CASE("two surfaces that pass through each other have no depth to be searche
   }
 }
 
-TEST_CASE("what is not finite is not free, and pairs that do not exist are refused") {
+TEST_CASE("a motion that is not finite is not free, and pairs that do not exist are refused") {
   const Scene scene = everyJoint(BaseMotion::fixed);
   MotionCheck check(scene.kinematics, scene.geometry, scene.pairs, scene.obstacles);
   const VectorXd q = VectorXd::Zero(scene.kinematics->size());

@@ -219,7 +219,8 @@ TEST_CASE("a proof of links without bodies, of what does not exist and of other 
   CHECK_THROWS_AS(distanceBound(scene, pair, unknown), Error);
 }
 
-TEST_CASE("what bodies are too thin for is proven in one box, what they are not is found") {
+TEST_CASE(
+    "depths for which the bodies are too thin are proven in one box, and depths that they reach are found") {
   // Two plates that slide and turn through each other. They are at most 0.35 m deep, where they cross.
   const std::string plate = "<box size=\"0.1 0.6 0.4\"/>";
   const std::string text =

@@ -28,7 +28,7 @@ std::size_t shapesIn(const std::string& insideLink) {
 
 }  // namespace
 
-TEST_CASE("what is not a collision shape costs no collision shape") {
+TEST_CASE("a fault outside of collision shapes removes no collision shape") {
   for (const char* broken :
        {"<visual/>", "<visual><geometry/></visual>",
         "<visual><geometry><mesh filename=\"m.stl\" scale=\"1\"/></geometry></visual>",
@@ -149,7 +149,7 @@ TEST_CASE("a link or a joint within a link is refused") {
   }
 }
 
-TEST_CASE("an origin that moves nothing is let pass wherever it stands") {
+TEST_CASE("an origin without an offset is accepted in any place") {
   const auto jointWith = [](const std::string& element) {
     return robot(link("a") + link("b") +
                  "<joint name=\"j\" type=\"fixed\"><parent link=\"a\"/><child link=\"b\"/>" + element +
@@ -280,7 +280,7 @@ TEST_CASE("xacro is told by its elements and attributes, not by comments, texts 
   CHECK_THAT(refused(robot(link("a", "<mesh filename=\"$(find x)/m.stl\"/>"))), Contains("xacro"));
 }
 
-TEST_CASE("all that is wrong with a robot is told at once, before a volume is built") {
+TEST_CASE("all faults of a robot are reported at once, before a volume is built") {
   const TemporaryFolder folder;
   put(folder / "good.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 2 4\n");
   put(folder / "bad.obj", "no mesh");

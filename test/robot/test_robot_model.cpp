@@ -403,7 +403,7 @@ TEST_CASE("the virtual joint of the root link moves the base, others are ignored
   for (const char* still : {"home", "other"}) CHECK_FALSE(srdf.movesBase(srdf.state(still)));
 }
 
-TEST_CASE("what an SRDF misspells is told with the near name") {
+TEST_CASE("misspelt names in an SRDF are reported with the nearest name") {
   const TemporaryFolder folder;
   put(folder / "small.urdf", robot(link("base") + link("arm") + joint("elbow", "revolute", "base", "arm")));
   const RobotModel model = loadUrdf(folder / "small.urdf");
@@ -510,7 +510,7 @@ TEST_CASE("a posture of several groups is taken whole, and nothing of it is left
              Contains("is a URDF"));
 }
 
-TEST_CASE("what follows a continuous joint at another speed reaches all of its places") {
+TEST_CASE("a joint that follows a continuous joint at another speed reaches all of its positions") {
   const auto leader = [&](const std::string& type, const std::string& ratio) {
     const RobotModel model =
         parse(link("a") + link("b") + link("c") + joint("j", "continuous", "a", "b") +

@@ -270,7 +270,7 @@ TEST_CASE("levels of other shapes and needs that make no sense are refused") {
   CHECK_THROWS_WITH(loadLevels(*workshop.robot, options, {std::nan("")}), Contains("a budget of nan"));
 }
 
-TEST_CASE("what cannot be measured is not met") {
+TEST_CASE("a need whose distance cannot be measured is not met") {
   const Workshop& workshop = workshopOfAll();
   const VectorXd q = workshop.at(0.5, 0.5), far = workshop.at(1e151, 0.5);
   const auto unmetAmong = [&](const Eigen::Isometry3d& pose) {

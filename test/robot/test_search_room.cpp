@@ -66,7 +66,7 @@ Obstacle pillarAt(double x) {
 
 }  // namespace
 
-TEST_CASE("joints with limits that stand for none are searched where bodies can meet") {
+TEST_CASE("joints whose limits stand for no limit are searched where bodies can meet") {
   const std::string post = "<cylinder radius=\"0.1\" length=\"1\"/>";
   for (const auto& [lower, upper] :
        {std::pair("-1e4", "1e4"), std::pair("-1e6", "1e6"), std::pair("-1e16", "1e16"),

@@ -73,7 +73,7 @@ std::vector<std::shared_ptr<fcl::CollisionGeometryd>> everyKind() {
 
 }  // namespace
 
-TEST_CASE("what a caller's progress throws comes back to it, from any number of threads") {
+TEST_CASE("an exception from a caller's progress function reaches the caller, for any number of threads") {
   for (const int threads : {1, 2, 4}) {
     std::atomic<int> done = 0;
     const auto work = [&] {

@@ -97,7 +97,7 @@ TEST_CASE("a link or a pipe in an entry's place is neither read nor written thro
   CHECK(cached(folder / "a", 0.2));
 }
 
-TEST_CASE("what a killed process left is swept up an hour later, and nothing else") {
+TEST_CASE("files that a killed process left are removed an hour later, and no other files") {
   const TemporaryFolder folder;
   fs::create_directory(folder / "a");
   for (const char* name : {"a/.fcl_stpbv-1-0.tmp", "a/.fcl_stpbv-2-0.tmp", "a/mine.tmp"})

@@ -456,7 +456,7 @@ TEST_CASE("The signed distance of a point agrees with steps along normals and wi
     }
 }
 
-TEST_CASE("points that are no numbers, or none, are told and not taken for covered") {
+TEST_CASE("points that are not finite, or no points, are an error and do not count as covered") {
   const auto volume = StpBv::build({{0, 0, 0}, {1, 0, 0}}, {0.1, 10});
   const double nan = std::numeric_limits<double>::quiet_NaN(),
                infinite = std::numeric_limits<double>::infinity();
