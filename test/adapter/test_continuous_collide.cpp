@@ -31,7 +31,7 @@ fcl::ContinuousCollisionRequestd requestOf(fcl::CCDMotionType type, double toler
   return fcl::ContinuousCollisionRequestd(10, tolerance, type);
 }
 
-/// A motion of FCL, to be sampled. Shared, not unique, because FCL's base class has no virtual destructor.
+/// A motion of FCL, to be sampled. Shared, not unique: deleting one through its base frees what `new` made.
 std::shared_ptr<fcl::MotionBased> fclMotion(const Isometry3d& begin, const Isometry3d& end,
                                             fcl::CCDMotionType type) {
   if (type == fcl::CCDM_TRANS) return std::make_shared<fcl::TranslationMotion<double>>(begin, end);
