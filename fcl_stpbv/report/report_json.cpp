@@ -20,6 +20,10 @@ nlohmann::json orNull(double value) {
   return std::isfinite(value) ? nlohmann::json(value) : nlohmann::json();
 }
 
+nlohmann::json orNull(const std::string& text) {
+  return text.empty() ? nlohmann::json() : nlohmann::json(text);
+}
+
 nlohmann::json trajectoryJson(const CollisionReport& report) {
   if (!report.trajectory) return {};
   const TrajectoryReport& t = *report.trajectory;

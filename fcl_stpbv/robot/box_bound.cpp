@@ -146,7 +146,7 @@ void BoxBound::place() {
     }
     if (!pair_.obstacle) continue;
     const Obstacle& obstacle = scene_.obstacles[at(pair_.link2)];
-    reach(obstacle.centre, obstacle.radius);
+    reach(obstacle.centre(), obstacle.radius());
   }
   const double m = static_cast<double>(joints_.size());
   const double steps =

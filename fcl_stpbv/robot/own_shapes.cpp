@@ -52,7 +52,7 @@ bool OwnShapes::rulesOut(const SceneNeed& need, const Kinematics& kinematics,
   std::vector<Placed> second;
   if (need.pair.obstacle) {
     const Obstacle& obstacle = obstacles[at(need.pair.link2)];
-    second.push_back({obstacle.geometry.get(), obstacle.pose, 0});
+    second.push_back({obstacle.geometry().get(), obstacle.pose(), 0});
   } else {
     second = placed(need.pair.link2, state.link[at(need.pair.link2)], bodies2);
   }
