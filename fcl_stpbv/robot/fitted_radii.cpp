@@ -16,7 +16,7 @@ BodySize sizeOf(const std::vector<Eigen::Vector3d>& points) {
   // with itself.
   const auto hull = hullGeometry(points);
   const DistanceAnswer self =
-      distance(*hull, fcl::Transform3d::Identity(), *hull, fcl::Transform3d::Identity());
+      fcl_stpbv::distance(*hull, fcl::Transform3d::Identity(), *hull, fcl::Transform3d::Identity());
   size.width = std::min(std::max(0.0, -self.upper), 2 * size.ball);  // 0 instead of -0 for a single point
   return size;
 }

@@ -78,7 +78,6 @@ std::string pageOf(const Scene& scene, const report::TrajectoryReport& followed,
   for (const Obstacle& obstacle : scene.obstacles)
     picture +=
         polygonOf(*obstacle.geometry(), obstacle.pose(), "fill:#d9a441;fill-opacity:0.35;stroke:#8a6410");
-  constexpr int kDrawn = 7;
   const double last = followed.trajectory.time.back();
   const Eigen::VectorXd start = followed.at(0), end = followed.at(last);
   picture += robotAt(scene, start, "start", &end) + robotAt(scene, followed.at(0.5 * last), "between", &end) +

@@ -115,8 +115,8 @@ class HullStates : public ob::StateValidityChecker {
       const fcl::CollisionGeometryd* other = nullptr;
       Eigen::Isometry3d poseB;
       if (pair.obstacle) {
-        other = scene_.hullObstacles[at(pair.other)].geometry.get();
-        poseB = scene_.hullObstacles[at(pair.other)].pose;
+        other = scene_.hullObstacles[at(pair.other)].geometry().get();
+        poseB = scene_.hullObstacles[at(pair.other)].pose();
       } else {
         const fcl_stpbv::Body& b = scene_.hulls->bodies[at(pair.other)];
         other = b.geometry.get();
