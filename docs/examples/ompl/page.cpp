@@ -83,9 +83,8 @@ std::string pageOf(const Scene& scene, const report::TrajectoryReport& followed,
   picture += robotAt(scene, start, "start", &end) + robotAt(scene, followed.at(0.5 * last), "between", &end) +
              robotAt(scene, end, "end");
   return pageHead(findings.verdict, kStyle) + "<p>" + findings.about + "</p>\n" + tableOf(findings.table) +
-         "<h2>From the side</h2>\n<p>Magenta: the start, where it differs from the end. Outlines: half of "
-         "the "
-         "way. Blue: the end, with the hand around the can. Yellow: the fridge.</p>\n"
+         "<h2>From the side</h2>\n<p>Magenta: the start, where it differs from the end. "
+         "Outlines: half of the way. Blue: the end, with the hand around the can. Yellow: the fridge.</p>\n"
          "<div class=\"chart side\">" +
          picture +
          "</svg></div>\n<h2>Least distance of all pairs along the way</h2>\n<div class=\"chart wide\">" +
