@@ -25,7 +25,9 @@ IMPORTED = ["numpy", "fcl_stpbv.batch.engine", "fcl_stpbv.batch.places", "click"
 def _channel():
     """To the process that forks, which starts when it is first asked for and ends when this end is closed."""
     channel, other = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
-    server = subprocess.Popen([sys.executable, "-B", __file__, str(other.fileno())], pass_fds=[other.fileno()], stdin=subprocess.DEVNULL)
+    # A process of Dask tries to reach one that was killed for this long; the default is 30 s.
+    environment = {**os.environ, "DASK_DISTRIBUTED__COMM__TIMEOUTS__CONNECT": "3s"}
+    server = subprocess.Popen([sys.executable, "-B", __file__, str(other.fileno())], pass_fds=[other.fileno()], stdin=subprocess.DEVNULL, env=environment)
     other.close()
     atexit.register(server.wait)
     atexit.register(channel.close)  # before, as the last one comes first
