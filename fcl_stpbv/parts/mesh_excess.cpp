@@ -8,8 +8,7 @@
 //    - if none does, it is completely inside or completely outside;
 //    - otherwise it is halved across its longest edge.
 //    Halving alone would need ten times as many triangles for each digit, if a hull's face ends at the border
-//    of a
-//    flat part or leaves the solid.
+//    of a flat part or leaves the solid.
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
@@ -20,6 +19,7 @@
 #include "fcl_stpbv/parts/cut_triangle.h"
 #include "fcl_stpbv/parts/known_excess.h"
 #include "fcl_stpbv/parts/mesh_solid.h"
+#include "fcl_stpbv/parts/touching_triangles.h"
 #include "fcl_stpbv/volume/point_check.h"
 #include "fcl_stpbv/volume/rolling_ball.h"
 
@@ -109,7 +109,7 @@ class Bound {
     return best_.lower <= options_.enough;
   }
 
-  // Gives what is open back to the triangles that it is of.
+  // Returns the open pieces to their triangles.
   void keepOpen() {
     if (!known_) return;
     for (Open& piece : open_) roots_[piece.root].known->open.push_back(piece);
@@ -219,8 +219,8 @@ class Bound {
     if (!(inner > 4 * smaller) || mesh_.side(middle) == MeshSolid::Side::outside) return false;
     const double bound = smaller / inner * outer + 4 * slack_;
     if (!settled(bound)) return false;
-    const Touching found = touching(t, normal, middle, smaller);
-    if (found.crossings > kMostCrossings) return false;
+    const TouchingTriangles found = trianglesTouching(mesh_, {t, normal, middle, smaller, slack_});
+    if (found.crossings > TouchingTriangles::kMost) return false;
     if (found.crossings > 0) return cutAlong(piece, found.crossing);
     if (found.above && found.below) return false;
     const auto encloses = [&](double shift) {
@@ -230,53 +230,6 @@ class Bound {
     if (!(aside ? (!found.above && encloses(2.5)) || (!found.below && encloses(-2.5)) : encloses(0)))
       return false;
     return settle(piece, std::min(piece.bound, bound));
-  }
-
-  static constexpr int kMostCrossings = 8;  // if there are more, halving is better
-  struct Touching {
-    bool above = false, below = false, flat = false;  // sides on which triangles touch the piece
-    int crossings = 0, crossing = -1;  // number of triangles that cross it; the one with most area in it
-  };
-
-  // How triangles of closed pieces meet the prism over a slightly smaller triangle. Triangles within 4 slack
-  // of its plane touch it.
-  Touching touching(const Triangle& t, const Vector3d& normal, const Vector3d& middle, double smaller) const {
-    Touching found;
-    double largest = 0;
-    const Vector3d margin = Vector3d::Constant(4 * slack_);
-    const Vector3d low = t[0].cwiseMin(t[1]).cwiseMin(t[2]) - margin;
-    const Vector3d high = t[0].cwiseMax(t[1]).cwiseMax(t[2]) + margin;
-    const auto reach = [&](const auto& points) {
-      double least = kInfinity, most = -least;
-      for (const Vector3d& p : points) {
-        least = std::min(least, normal.dot(p - middle));
-        most = std::max(most, normal.dot(p - middle));
-      }
-      return std::pair{least, most};
-    };
-    const auto isFar = [&](const std::pair<double, double>& heights) {
-      return heights.first > 4 * slack_ || heights.second < -4 * slack_;
-    };
-    Triangle inwards;
-    for (std::size_t k = 0; k < 3; ++k) inwards[k] = normal.cross(t[(k + 1) % 3] - t[k]).normalized();
-    mesh_.within(low, high, [&](int m) {
-      const Triangle& x = mesh_.triangles()[at(m)];
-      if (!mesh_.pieces().closed[at(mesh_.pieces().piece[at(m)])] || isFar(reach(x))) return true;
-      CutTriangle in(x);
-      for (std::size_t k = 0; k < 3 && !in.empty(); ++k)
-        in = in.cut(inwards[k], inwards[k].dot(t[k]) + smaller, 0).first;
-      if (in.empty()) return true;
-      const auto [least, most] = reach(in);
-      if (isFar({least, most})) return true;
-      const bool above = most > slack_, below = least < -slack_;
-      if (above && below) {
-        if (found.crossings++ == 0 || in.area() > largest) found.crossing = m, largest = in.area();
-      } else {
-        (above ? found.above : below ? found.below : found.flat) = true;
-      }
-      return found.crossings <= kMostCrossings;
-    });
-    return found;
   }
 
   bool cutAlong(const Open& piece, int m) {

@@ -10,6 +10,10 @@ namespace fcl_stpbv::report {
 
 /// For people: a summary and the first `top` lines of each list, the closest pairs first.
 std::string toText(const CollisionReport& report, std::size_t top);
+
+/// The table of pairs in that text. If any pair collides, it shows the distance of the meshes and the cause
+/// in place of the distance of the hulls and the search's reason.
+std::string pairsText(const CollisionReport& report, std::size_t top);
 /// The verdict on the report's trajectory: proven free, or which pair touches when.
 std::string trajectoryVerdict(const CollisionReport& report);
 std::string toJson(const CollisionReport& report);

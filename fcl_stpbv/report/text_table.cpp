@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "fcl_stpbv/formatted.h"
 #include "fcl_stpbv/text_cells.h"
 
 namespace fcl_stpbv::report {
@@ -31,6 +32,12 @@ std::string TextTable::text(std::size_t indent) const {
     text += "\n";
   }
   return text;
+}
+
+std::string millimetres(double metres) { return detail::formatted("%.3f", 1e3 * metres); }
+
+std::string unshown(std::size_t all, std::size_t top) {
+  return all > top ? "... and " + std::to_string(all - top) + " more (--top)\n" : "";
 }
 
 }  // namespace fcl_stpbv::report

@@ -25,4 +25,10 @@ class TextTable {
   std::vector<std::vector<std::string>> lines_;
 };
 
+/// A length (m) in millimetres with three decimals, as the tables show lengths.
+std::string millimetres(double metres);
+
+/// The end of a list of `all` lines that is cut after `top` of them; empty if it is not cut.
+std::string unshown(std::size_t all, std::size_t top);
+
 }  // namespace fcl_stpbv::report
