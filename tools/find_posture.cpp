@@ -70,7 +70,7 @@ void describe(Program& app, Arguments& a) {
   app.flag("-q,--quiet", a.quiet, "No warnings");
 }
 
-// Warnings about the pairs that are nearer than the margin in a posture that was found without collisions
+// Warnings about the pairs that are nearer than the margin in a posture that was found without collision
 // constraints.
 std::vector<std::string> collisionsOf(const PostureReport& report) {
   std::vector<std::string> list;

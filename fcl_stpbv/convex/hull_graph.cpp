@@ -4,8 +4,7 @@
 //    infinite radius around the points (volume/rolling_ball.h).
 // 2. Name its edges and the faces around each vertex.
 // 3. Support: hill climbing from the last vertex (as in FCL), eight neighbours at once. A direction table
-// gives
-//    a start.
+//    gives a start.
 #include "fcl_stpbv/convex/hull_graph.h"
 
 #include <Eigen/Geometry>

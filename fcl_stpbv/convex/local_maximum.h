@@ -82,7 +82,7 @@ class LocalMaximum {
   static constexpr int kMost = 6;                  // parts of both bodies; further ones are ignored
   static constexpr double kLeast = 0.7;            // cosine: normals at a larger angle need another proof
   static constexpr double kSafe = 1.001;           // allows for the point being D n only up to rounding
-  static constexpr double kAcross = 1e-9;          // cosine: a larger one means that the direction is wrong
+  static constexpr double kAcross = 1e-9;          // cosine: beyond it the direction is only rounding
   static constexpr double kExactlyAcross = 4e-15;  // cosine: an inclined segment is higher on one side only
 
   void add(const Part& p) {

@@ -17,7 +17,7 @@ namespace fcl_stpbv::detail {
 struct Meridian {
   Eigen::Vector3d along, across;  ///< unit and orthogonal, in A's frame
   Eigen::Vector3d outA, outB;     ///< unit normals of the planes through each body's own axis
-  /// Distance of the cores from two cores with exactly parallel axes (m).
+  /// Upper bound on the distance of the cores from two cores with exactly parallel axes (m).
   double slack;
 };
 

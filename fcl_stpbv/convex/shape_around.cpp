@@ -2,9 +2,9 @@
 //
 // 1. A box: a segment along each axis that is perpendicular to the normal.
 // 2. A cylinder and a cone: the disc of a flat end, the circle of a rim, the generator and the circle at a
-// point
-//    of the side. A cone contains both, but not their Minkowski sum; so half of each is taken.
-// 3. An ellipsoid: circles around each of its axes, which lie inside it near the point (docs/theory.md, 5).
+//    point of the side. A cone contains both, but not their Minkowski sum; so half of each is taken.
+// 3. An ellipsoid: a circle for each of its axes. Along every normal the ellipsoid reaches at least as far
+//    beyond its point as all three circles together (docs/theory.md, 5).
 #include "fcl_stpbv/convex/shape_around.h"
 
 #include <Eigen/Geometry>

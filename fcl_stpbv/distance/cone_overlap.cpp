@@ -3,8 +3,7 @@
 //
 // 1. A flat face has one normal: evaluate the depth along it.
 // 2. A corner has a cone of normals. If the corner is deep enough, its shortest way out leads through a face
-// of
-//    the volume, and the ways out of the faces' balls are in closed form (volume/point_depth.h).
+//    of the volume, and the ways out of the faces' balls are in closed form (volume/point_depth.h).
 // 3. An edge has an arc of normals: EPA in the plane perpendicular to the edge. Between two normals, the
 //    volume's outline is outside the chord between their support points.
 // 4. If a piece of an arc is within one patch, the curvature may prove that it has at most one minimum.
@@ -113,8 +112,8 @@ class WaysOut {
     return true;
   }
 
-  /// The answer, if the normals searched so far prove it. Pieces that were left out may have ways out as long
-  /// as the best known one, but no shorter ones.
+  /// The answer, if the normals searched so far prove it. Corners and pieces that were left out have no way
+  /// out shorter than `worth_`.
   std::optional<LeastOverlap> answer() {
     if (!(best_.depth - std::min(bound_, worth_) <= 2.0 * q_.rounding.gap)) return {};
     LeastOverlap found{{}, -std::min(bound_, best_.depth) + q_.rounding.across, true, true};
@@ -202,7 +201,7 @@ class WaysOut {
   }
 
   ShapeQuery& q_;
-  double worth_ = kInfinity;  // the depth along the best known normal, less rounding
+  double worth_ = kInfinity;  // least known depth, adjusted for rounding; only shorter ways out matter
   double bound_ = kInfinity;  // lower bound on the depth in the cones searched so far
   WayOut best_{{0, 0, 0}, -1, {0, 0, 0}, kInfinity};
   ShapeCorners met_;  // the shape's corners that leave last along it

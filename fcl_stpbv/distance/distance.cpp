@@ -72,7 +72,7 @@ SearchStart fromCentres(const BodyPair& pair) {
 /// violates most. -1 after a large turn.
 int nearby(const StpBv& body, int patch, const Packed& now, const Eigen::Vector3f& then) {
   constexpr double kLarge = 0.1;  // rad
-  constexpr double kWide = 3.0;   // squares of such a turn, over all patches: a quarter of the sphere
+  constexpr double kWide = 3.0;   // squared turn times the number of patches: about a quarter of the sphere
   if (patch < 0 || patch >= body.patchCount()) return -1;
   if (then.isZero()) return patch;
   const Packed turn = now - pack(then.cast<double>());

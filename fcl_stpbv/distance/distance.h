@@ -21,7 +21,9 @@ enum class DistanceStatus {
   local,
   bounded,  ///< not solved up to rounding; the true value lies in [lower, upper]
   /// A pose is not a rigid motion (an entry of its rotation is off by more than 1e-6) or is 1e150 m away. The
-  /// distance and the bounds are infinite, everything else is zero.
+  /// distance and the lower bound are minus infinity, the upper bound is infinite; normal and points are
+  /// zero,
+  /// the patches -1.
   invalid,
 };
 

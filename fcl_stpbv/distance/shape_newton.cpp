@@ -104,7 +104,7 @@ struct Facing {
     constexpr double kKnown = 0.1;  // of the radii: nearer centres do not determine the normal well
     if (!(across.dot(n) > kKnown * (bentA + bentB))) return;
     n = across.normalized();
-    n = (n - n.dot(t) * t).normalized();  // again, as `across` may be long along the lines
+    n = (n - n.dot(t) * t).normalized();  // again, as rounding of a long `middles` leans along the lines
   }
 
   /// One step of the normal.
@@ -137,7 +137,7 @@ struct Facing {
     if (coneA.count == 2 && !(bend(coneB) < bend(coneA))) return pointA;
     if (coneB.count == 2) return pointB - gap * n;
     const Vector3d u = line(coneA), v = line(coneB), normal = u.cross(v);
-    if (!cross()) {  // the support point of a round side may be off the line that is opposite
+    if (!cross()) {  // `onA` may be off the line through the support point; only that is opposite
       if (coneA.count == 1) return pointA + (onA - pointA).dot(u) * u;
       if (coneB.count == 1) return pointB + (onA - pointB).dot(v) * v - gap * n;
       return onA + (pointA - onA).dot(n) * n;

@@ -154,7 +154,7 @@ Nearest nearestOnRim(ShapeQuery& q, const Vector3d& middle, const Vector3d& axis
   }
   const Nearest found = nearestOn(q, RimFeature{middle, axis, q.shape.radius}, from);
   constexpr double kNearAxis =
-      0.1;  // sine: from here on the normal's rounding moves the point by ten times as much
+      0.1;  // sine: here the normal's rounding moves the point by ten times as much, nearer the axis by more
   if ((found.n - found.n.dot(axis) * axis).norm() > kNearAxis) return found;
   const Nearest refined = nearestByAngle(q, middle, axis, {found.n, found.patch});
   return refined.apart ? refined : found;

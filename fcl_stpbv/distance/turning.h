@@ -12,7 +12,7 @@ namespace fcl_stpbv::detail {
 /// feature's point relative to the first one's (m), and `carried`, the rotation of the normal that body 2
 /// causes relative to body 1 (rad). The results are
 ///
-///     turning * apart - sliding^T * carried    the turn of the normal in body 2 (rad),
+///     turning * apart - sliding^T * carried    the turn of the normal relative to body 2 (rad),
 ///     sliding * apart + rolling * carried      how far body 1's point slides on body 1 (m).
 struct Turning {
   Eigen::Matrix<double, 3, 2> frame;  ///< two unit vectors across the normal

@@ -64,7 +64,7 @@ VertexGjk vertexGjk(const BodyPair& pair, const Vector3d& n, double level) {
   constexpr int kSteps = 20;
   constexpr double kGap = 1e-5;  // relative; the facing features are known long before their distance is
   constexpr double kRounding = 1e-12;  // m
-  // The support vertices along `n`, and for each body the neighbour that is second furthest.
+  // The support vertices along `n`, and for each body the neighbour over the edge that descends least.
   VertexDifference difference(pair, n);
   const auto [i, j] = difference.vertex();
   const auto corner = [&](int u, int v) { return Corner{difference.difference({u, v}), -kInfinity}; };

@@ -1,8 +1,7 @@
 // A convex cell of space between cutting planes, as a polyhedron of corners and faces.
 // 1. Start: the mesh's box, a little larger.
 // 2. above(): clip each face by the plane and join the new corners to a face. If a mesh is given, test
-// whether each
-//    corner on the cut is inside it.
+//    whether each corner on the cut is inside it.
 #include "fcl_stpbv/parts/cell.h"
 
 #include <Eigen/Geometry>

@@ -188,8 +188,7 @@ class Searches {
 // 1. Join facets, if the result is good enough.
 // 2. Cut parts. If the result is not good enough, join facets again and cut them further.
 // 3. If the inside needs corners that increase the excess, try parts that grow instead, and cuts with all
-// corners
-//    from the start.
+//    corners from the start.
 ConvexParts Searches::within(double excess, long work) {
   if (needsCorners_) return byCutsWithCorners(excess, work);
   plain_.aim(excess);

@@ -2,9 +2,7 @@
 // 1. Its hull is the hull of all points of its leaves. A joined part uses the hull vertices of both parts.
 // 2. Its excess over the mesh (mesh_solid.h) is measured only as accurately as the search needs.
 // 3. A cut clips each leaf's triangles (Sutherland-Hodgman) and its cell by the plane. A leaf with triangles
-// on one
-//    side only is not clipped.
-//    triangles on one side only is not clipped.
+//    on one side only is not clipped.
 #include "fcl_stpbv/parts/part.h"
 
 #include <algorithm>

@@ -11,7 +11,7 @@ namespace fcl_stpbv::detail {
 /// The excess of a part, as far as it is known (m).
 inline double excessOf(const PartPtr& part) { return part->excess.lower; }
 
-/// Of the excess to be lowered: what is below does not matter yet.
+/// Resolution with which a cut's halves are measured, as a share of the excess of the part that is cut.
 constexpr double kCutResolution = 0.15;
 
 struct PartCut {

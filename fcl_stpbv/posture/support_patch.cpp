@@ -205,8 +205,9 @@ double SupportPatch::room(int row) const {
   return cosine * cosine - kUpright * kUpright;
 }
 
-// The circle's centre is at its best place, so to first order it does not move on the patch. Seen from above,
-// its distances from the edges change with the edges' lengths and the slope of the patch.
+// The circle's centre is at its best place, so to first order its motion on the patch does not change the
+// radius. Seen from above, the distances of a centre that stays change with the edges' lengths and the slope
+// of the patch.
 double SupportPatch::roomRate(int row, const Twist& twist) const {
   const double steeper = world_.row(2).dot(twist.angular.cross(normal_));
   if (row == 1) return 2 * world_.row(2).dot(normal_) * steeper;

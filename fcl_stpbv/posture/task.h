@@ -152,7 +152,7 @@ std::vector<CheckedPair> searchedPairs(std::shared_ptr<const RobotModel> robot,
 /// kind.
 struct LinkObstacles {
   std::vector<std::string> links;                ///< names; empty: all
-  std::vector<std::string> obstacles;            ///< names; empty: all
+  std::vector<std::string> obstacles;            ///< names; empty: all, or none if `self` is given
   std::optional<std::vector<std::string>> self;  ///< other links, by name
 
   /// Whether pairs with obstacles are included.

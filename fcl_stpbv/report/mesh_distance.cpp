@@ -20,7 +20,7 @@ constexpr double kWithin =
 
 bool holdsPart(const ExactBody& outer, const Eigen::Isometry3d& poseOuter, const ExactBody& inner,
                const Eigen::Isometry3d& poseInner) {
-  if (!outer.solid()) return false;  // a primitive is solid: its distance is 0 then
+  if (!outer.solid()) return false;  // a primitive is solid: its distance is not above 0 then
   const fcl::AABBd& box = outer.shape().aabb_local;
   const Eigen::Isometry3d between = poseOuter.inverse() * poseInner;
   return std::any_of(inner.partPoints().begin(), inner.partPoints().end(), [&](const Eigen::Vector3d& p) {

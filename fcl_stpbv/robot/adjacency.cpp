@@ -1,12 +1,10 @@
 // Adjacency of links. Links joined by fixed joints are one part.
 //
 // 1. In each part, find the link with a body that is nearest to each link, counted in fixed joints. If
-// several
-//    are equally near, there is none.
+//    several are equally near, there is none.
 // 2. Two links are adjacent if one moving joint lies between them, or several that rotate about the same
-// origin
-//    with no body between them (a compound joint), and if both are the nearest links with a body at its ends.
-//    A planar or floating joint makes them separate.
+//    origin with no body between them (a compound joint), and if both are the nearest links with a body at
+//    its ends. A planar or floating joint makes them separate.
 #include "fcl_stpbv/robot/adjacency.h"
 
 #include <limits>

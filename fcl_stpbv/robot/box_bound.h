@@ -64,7 +64,7 @@ class BoxBound {
   PlaneBound bound_;
   BodyPoints first_, second_;
   double distance_ = 0, slack_ = 0;
-  bool leversHold_ = true;  // which they do as far as the joints that slide keep to their limits
+  bool leversHold_ = true;  // whether lipschitz_ holds: only within the limits of joints that slide
   int widest_ = 0;
 };
 

@@ -13,8 +13,8 @@ struct ColladaReach {
   double far = 0, stretch = 1;
 };
 
-/// Checks an element of a node. If it is a transform, adds it to `reach`. @throws Error "name:line: <rotate>
-/// ..."
+/// Checks an element of a node. If it is a transform, adds it to `reach`.
+/// @throws Error "name:line: <rotate> ..."
 void addColladaTransform(const tinyxml2::XMLElement& element, const std::string& name, ColladaReach& reach);
 
 }  // namespace fcl_stpbv::detail

@@ -158,8 +158,9 @@ class CollisionConstraints {
   bool hessian(const ConstVector& q, int row, Eigen::Ref<Eigen::MatrixXd> full);
 
   /// The answer of a row's pair at the last evaluation. The status is `invalid` if the bounding spheres were
-  /// enough, and for the row of a smooth constraint, which has no points. hessian() queries only rows whose
-  /// weight is not 0, so call evaluate() again before answer().
+  /// enough, and for the row of a smooth constraint, which has no points. Then its distance has no meaning:
+  /// use the row's d. hessian() queries only rows whose weight is not 0, so call evaluate() again before
+  /// answer().
   RowAnswer answer(int row) const;
   /// The poses of the links at the last evaluation. Only the links of the rows' bodies and their ancestors
   /// are up to date.

@@ -1,9 +1,7 @@
 // A greedy choice from coarse to fine.
 // 1. Try the details in turn, coarse first: finer levels, then 2, 4 and 8 parts. Take the first detail with
-// which
-//    one finer link alone meets some need. Give it to the link that meets the most needs with it. Repeat
-//    until no
-//    single link helps.
+//    which one finer link alone meets some need. Give it to the link that meets the most needs with it.
+//    Repeat until no single link helps.
 // 2. Give the first need that two finer links meet together the details with the fewest rows. Go on with 1.
 // 3. The remaining needs are not met by the finest bodies.
 // A pair uses convex parts only if a need of that pair requires them.
@@ -81,7 +79,8 @@ DetailChoice::Details DetailChoice::detailsOf(const LinkPair& pair) const {
   return {std::min(detailOf(pair.link1), most), pair.obstacle ? 0 : std::min(detailOf(pair.link2), most)};
 }
 
-// The details of a pair after one of its links became as fine as `detail`. With parts, both links get them.
+// The details of a pair after one of its links became as fine as `detail`. If these are parts, the pair is
+// checked by parts: then the other link has all of its own detail too.
 DetailChoice::Details DetailChoice::raised(const LinkPair& pair, int link, Detail detail) const {
   Details details = detailsOf(pair);
   if (detail >= levels()) details = {detailOf(pair.link1), pair.obstacle ? 0 : detailOf(pair.link2)};
@@ -136,7 +135,8 @@ bool DetailChoice::meets(OpenNeed& open, Details details) {
   return found->second;
 }
 
-// Parts contain the link's own shapes and cost seconds to find. So first they are replaced by these shapes.
+// Parts contain the link's own shapes, and finding them takes seconds. So a need is first tested with these
+// shapes in place of the parts: if they are too near, no parts meet it.
 bool DetailChoice::mayMeet(OpenNeed& open, Details details) {
   const auto possible = [&](Details bounds) {
     const auto [found, isNew] = open.met.emplace(bounds, false);

@@ -46,7 +46,7 @@ class DetailChoice {
   struct OpenNeed {
     SceneNeed need;
     std::size_t index;            // among all
-    std::map<Details, bool> met;  // what is known; with kOwn for whether finer and finer bodies may meet it
+    std::map<Details, bool> met;  // what is known; kOwn in place of parts: whether any parts may meet it
   };
   static constexpr Detail kOwn = std::numeric_limits<Detail>::max();  // the link's own shapes, as if a level
 

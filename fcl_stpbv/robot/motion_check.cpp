@@ -3,10 +3,8 @@
 // 1. robot/motion_chains.h computes the bodies' velocities and bounds on their accelerations.
 // 2. For each time examined, the velocities give the times before and after it for which a plane keeps the
 //    bodies apart (planeCover). The first plane tried is the one between their bounding balls. If that does
-//    not
-//    cover enough, the plane of the exact distance's normal is used. For meshes and trees, the bound on the
-//    bodies'
-//    speed and a plane for each element (elementCover) are used too.
+//    not cover enough, the plane of the exact distance's normal is used. For meshes and trees, the bound on
+//    the bodies' speed and a plane for each element (elementCover) take its place.
 // 3. adapter/motion_search.h chooses the times, until the covers contain the whole motion or a contact is
 //    found. For the closest approach the margin is the smallest distance so far.
 #include "fcl_stpbv/robot/motion_check.h"

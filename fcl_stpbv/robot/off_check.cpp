@@ -18,7 +18,7 @@ constexpr std::size_t kLongestLine = 4095;
 struct OffHeader {
   std::size_t coordinates = 3;  // coordinates of a vertex, with its weight
   std::size_t numbers = 3;      // numbers that every vertex must have
-  bool colours = false;         // whether a colour may follow, of any number of numbers
+  bool colours = false;         // whether the header announces colours, of any number of numbers
   long vertices = 0, faces = 0;
 };
 

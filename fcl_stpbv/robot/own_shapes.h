@@ -25,8 +25,9 @@ class OwnShapes {
 
   /// Whether two links, or a link and an obstacle, are so near that no bodies with at least these bodies' r
   /// meet the need. Volumes and parts contain their mesh and lie at least r outside it.
+  /// If `bodies1` or `bodies2` is given, these bodies take the place of that link's own shapes, without a
+  /// margin.
   /// @throws Error naming a mesh that cannot be read.
-  /// Of a link that is given `bodies`, these stand for its own shapes.
   bool rulesOut(const SceneNeed& need, const Kinematics& kinematics, const std::vector<Obstacle>& obstacles,
                 const Bodies* bodies1 = nullptr, const Bodies* bodies2 = nullptr);
 

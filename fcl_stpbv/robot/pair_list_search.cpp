@@ -1,7 +1,7 @@
 // Finds the reasons for pairs by samples, as MoveIt's setup assistant does, and then by descents and proofs.
 // Each stage handles the pairs that are still undecided.
 // 1. The tree of joints: pairs that are adjacent, rigidly joined, or left out by the user's SRDF
-// (pair_tree.h).
+//    (pair_tree.h).
 // 2. Random samples: a collision in the neutral configuration, in (nearly) all samples, in some, or in none.
 // 3. Without a collision: descents of the distance from the closest samples, then a short proof by boxes of
 //    joint values (pair_proof.h), then descents from random configurations.
@@ -179,7 +179,6 @@ class Search {
     double descents = options_.randomDescents * std::min(1.0, kUsualWork / work);
     if (scene_.kinematics) {
       open.proof = unproven(scene_, entry);
-      // Ways of more joints than usual get fewer boxes and random descents: a box takes the square of the
       // Pairs with more joints than usual get fewer boxes and random descents, because a box takes time in
       // proportion to the square of the joints, a descent to their number, and a robot with long chains has
       // many pairs.

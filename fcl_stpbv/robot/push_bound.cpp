@@ -2,12 +2,10 @@
 // (docs/proofs.md).
 // 1. If the plane's link is at rest, a point x of a body goes to E_1 E_2 ... E_m x. E_i is the motion about
 //    joint i's axis in the middle of the box. The motion of the outermost joint m is applied first, so all
-//    axes
-//    and the normal n are those of the middle.
+//    axes and the normal n are those of the middle.
 // 2. One turn by t moves a point y, with r = y - origin, along n by
 //    sin(t) (n x a).r - (1 - cos(t)) (n.r - (n.a)(a.r)) (Rodrigues). push() bounds this over the box. The
-//    terms up
-//    to second order in the sines are exact; the terms of higher order are bounded.
+//    terms up to second order in the sines are exact; the terms of higher order are bounded.
 #include "fcl_stpbv/robot/push_bound.h"
 
 #include <algorithm>

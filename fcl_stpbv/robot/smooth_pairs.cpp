@@ -73,7 +73,8 @@ class Choice {
     return node_[index];
   }
 
-  // Covers the body whose cover costs least per pair that it settles. @returns false if no pair is open.
+  // Covers the body whose cover costs least per pair that it settles. @returns false if no pair is open,
+  // or none that a cover could settle.
   bool coverNext() {
     double least = kInfinity;
     FlatBody* best = nullptr;

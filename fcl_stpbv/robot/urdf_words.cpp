@@ -67,8 +67,8 @@ std::string listed(const Words& words) {
   return text.empty() ? "none" : text;
 }
 
-// Other tools add attributes of their own. An unknown attribute is accepted only if none of the known
-// attributes is missing, because otherwise it could be a misspelt one.
+// Other tools add attributes of their own. An unknown attribute is accepted only if none of the attributes
+// that move or shape a body is missing, because otherwise it could be a misspelt one.
 void checkAttributes(const XMLElement& element, const Known& known) {
   const bool complete =
       std::all_of(known.attributes.begin(), known.attributes.end(),

@@ -99,7 +99,7 @@ class RollingBall {
   const std::vector<Vector3d>& points_;
   const Ring& ring_;
   int start_, end_;
-  // The face's normal without its part along the edge; the direction into which this vector turns.
+  // The edge's direction; the face's normal without its part along it; the direction into which that turns.
   Vector3d along_, from_, ahead_;
 };
 

@@ -268,7 +268,8 @@ class PatchTable {
   std::vector<VertexRecord> vertices_;
   std::vector<EdgeRecord> edges_;  // a volume of one vertex has one edge, whose boundary holds for any normal
   std::vector<FaceRecord> faces_;
-  std::vector<Sides> further_;  // sides of vertices beyond eight, of faces beyond four
+  // Sides of vertices beyond eight; of faces with more than four sides, those beyond three.
+  std::vector<Sides> further_;
 };
 
 /// Goes over the boundaries of one patch, one by one.

@@ -1,7 +1,6 @@
-// Warm queries on turning geodesic spheres, for a tool that counts instructions: geodesic_queries QUERIES
-// small
-// large
-// deep. `deep`: after small steps, only bodies that overlap by more than their margins.
+// Warm queries on turning geodesic spheres, for a tool that counts instructions:
+// geodesic_queries QUERIES small|large|deep
+// `deep`: after small steps, only bodies that overlap by more than their margins.
 #include <cstdio>
 #include <string>
 

@@ -1,8 +1,7 @@
 // Counts how the builder, verify() and the measures handle difficult clouds. The figures of
 // docs/stability.md:
 //   cloud_report [CLOUDS] [SEED]    CLOUDS difficult ones, and as many near-degenerate ones; exit status 1 if
-//   any is
-//   refused or wrong
+//   any is refused or wrong
 #include <cstdio>
 #include <cstdlib>
 

@@ -202,10 +202,8 @@ def test_rates_and_hessians_of_a_robot_agree_with_its_jacobian():
         robot.hessian(q, d[:1])
     step, direction = 1e-6, np.random.default_rng(1).normal(size=q.size)
     slope = (robot.distances(q + step * direction) - robot.distances(q - step * direction)) / (2 * step)
-    # Second derivatives jump on region boundaries: by up to step
-    # direction
-    # ^2 (reach^2 / r + reach), with a reach of about 1 m. Most pairs are far apart, and no pair of this
-    # posture is on a boundary.
+    # Second derivatives jump on region boundaries: by up to step |direction|^2 (reach^2 / r + reach), with a reach of about
+    # 1 m. Most pairs are far apart, and no pair of this posture is on a boundary.
     np.testing.assert_allclose(jacobian @ direction, slope, atol=1e-6)
     with pytest.raises(fcl_stpbv.Error, match="q: got"):
         robot.distances(q[:-1])

@@ -2,8 +2,7 @@
 // 1. Compute the points' heights over the claimed ball.
 // 2. Find the points that it touches: at most forty, no two at one place.
 // 3. For each one, two and three of these, find the weights whose mean is nearest to the line along n through
-// x,
-//    and the lower bound that ball_hull_check.h derives from them.
+//    x, and the lower bound that ball_hull_check.h derives from them.
 #include "test/reference/ball_hull_check.h"
 
 #include <Eigen/Geometry>

@@ -17,12 +17,9 @@ struct BallHullClaim {
 
 /// Checks the claim that the core's surface point with the unit outward normal `n` is `x`. If the ball of
 /// radius `rho` through `x` with that normal contains all points, the support is at most n.x. For weights w_i
-/// on points, with sum 1, let y = sum w_i p_i and V = sum w_i
-/// p_i - y
-/// ^2. Every centre C of a ball that contains the points has
-/// C - y
-/// ^2 <= rho^2 - V. So the support is at least rho + n.y - sqrt(rho^2 - V). All triples of the points that
-/// the ball touches are tried.
+/// on points, with sum 1, let y = sum w_i p_i and V = sum w_i |p_i - y|^2. Every centre C of a ball that
+/// contains the points has |C - y|^2 <= rho^2 - V. So the support is at least rho + n.y - sqrt(rho^2 - V).
+/// All triples of the points that the ball touches are tried.
 BallHullClaim checkBallHull(const std::vector<Eigen::Vector3d>& points, double rho, const Eigen::Vector3d& n,
                             const Eigen::Vector3d& x);
 

@@ -17,9 +17,7 @@ long double bruteSupport(const std::vector<Eigen::Vector3d>& points, double r, d
   const long double rho = static_cast<long double>(R) - static_cast<long double>(r);
   long double scale = 0;
   for (const Vector& x : p) scale = std::max(scale, (x - p[0]).norm());
-  //
-  // C - p
-  // ^2 <= rho^2, with the rounding of this evaluation.
+  // For |C - p|^2 <= rho^2, with the rounding of this evaluation.
   const long double slack = 1e-17L * (rho * rho + scale * scale);
 
   long double best = 1e30L;

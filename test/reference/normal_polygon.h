@@ -13,11 +13,7 @@ class NormalPolygonOf {
  public:
   using Vector3 = Eigen::Matrix<Real, 3, 1>;
 
-  /// All normals n around the unit vector z for which
-  /// n.x
-  ///  and
-  /// n.y
-  ///  are at most `half` times n.z.
+  /// All normals n around the unit vector z for which |n.x| and |n.y| are at most `half` times n.z.
   NormalPolygonOf(const Vector3& z, Real half)
       : z_(z),
         x_(z.unitOrthogonal()),

@@ -37,9 +37,7 @@ ReferenceBody referenceBody(const Cloud& points, double r, double R,
                             const Eigen::Isometry3d& pose = Eigen::Isometry3d::Identity());
 
 /// Support value along the unit vector `n`. `corePoint` receives the core's point there (the surface's point
-/// minus `r n`). Accurate to about 1e-19 (
-/// p
-///  + R).
+/// minus `r n`). Accurate to about 1e-19 (|p| + R).
 long double referenceSupport(const ReferenceBody& body, const Vector3L& n, Vector3L* corePoint = nullptr);
 
 template <class Real>

@@ -237,6 +237,41 @@ TEST_CASE("a link that slides over a flat mesh takes few looks, however near, an
   }
 }
 
+TEST_CASE("a motion that begins without approaching meets what its acceleration brings it to") {
+  // A ball on a lever of 1 m begins opposite a ball or a mesh that stands on its circle. It approaches at 0
+  // m/s first: only the bound on its acceleration limits the first step.
+  Scene scene;
+  scene.model = std::make_shared<const RobotModel>(parseUrdf(
+      "<robot name=\"r\"><link name=\"a\"/><link name=\"b\"><collision><geometry><sphere radius=\"0.01\"/>"
+      "</geometry></collision></link><joint name=\"j\" type=\"revolute\"><parent link=\"a\"/>"
+      "<child link=\"l\"/><axis xyz=\"0 0 1\"/><limit lower=\"-7\" upper=\"7\" effort=\"1\" velocity=\"1\"/>"
+      "</joint><link name=\"l\"/><joint name=\"f\" type=\"fixed\"><parent link=\"l\"/><child link=\"b\"/>"
+      "<origin xyz=\"1 0 0\"/></joint></robot>",
+      "lever.urdf"));
+  GeometryOptions options;
+  options.cacheFolder.clear();
+  scene.geometry = std::make_shared<const RobotGeometry>(loadGeometry(*scene.model, options));
+  scene.kinematics = std::make_shared<const Kinematics>(scene.model);
+  const auto across = pose(Eigen::Matrix3d::Identity(), {-1, 0, 0});
+  for (const std::shared_ptr<fcl::CollisionGeometryd>& shape :
+       {std::shared_ptr<fcl::CollisionGeometryd>(std::make_shared<fcl::Sphered>(0.01)),
+        std::shared_ptr<fcl::CollisionGeometryd>(meshOfBox(0.02, 0.02, 0.02))}) {
+    scene.obstacles = {obstacleOf(fcl::CollisionObjectd(shape, across), "there")};
+    scene.pairs = obstaclePairs(*scene.model, *scene.geometry, 1, true);
+    REQUIRE(scene.pairs.size() == 1);
+    MotionCheck check(scene.kinematics, scene.geometry, scene.pairs, scene.obstacles);
+    for (const double end : {3.5, 4.0, 4.5, 5.0, 6.0}) {
+      CAPTURE(end);
+      const VectorXd q0 = VectorXd::Zero(1), q1 = VectorXd::Constant(1, end);
+      const MotionBracket found = check.firstContact(q0, q1, {0.0, 1e-6});
+      CHECK(found.verdict == MotionVerdict::contact);
+      // The surfaces, 20 mm apart between centres or less, meet a little before half a turn.
+      CHECK(std::abs(found.until * end - M_PI) <= 0.03);
+      CHECK_FALSE(check.isMotionFree(q0, q1));
+    }
+  }
+}
+
 TEST_CASE("two surfaces that pass through each other have no depth to be searched for") {
   const Scene scene = everyJoint(BaseMotion::fixed);
   std::vector<CheckedPair> surfaces;

@@ -2,8 +2,7 @@
 // 1. First runs, with r = 5 mm and R = 1 m, show how fast the bodies move.
 // 2. Radii are advised for each clearance and for that motion plus a quarter.
 // 3. Runs with these radii show how much acceleration the shapes add to d'' and how much clearance is lost.
-// More
-//    added acceleration than advised, in a motion within the stated limits, is an error.
+//    More added acceleration than advised, in a motion within the stated limits, is an error.
 #include "tools/bench/control/advice.h"
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 // 1. Compute both bodies' twists. The constraints give the velocities of normal and witness points.
 // 2. Compute the bodies' relative motion at the witness points.
 // 3. Compute c from turning, velocity and the slide of a point, as in docs/choosing_r_and_R.md. Keep the
-// largest.
+//    largest.
 #include "tools/bench/control/contacts.h"
 
 #include <algorithm>

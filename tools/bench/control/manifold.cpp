@@ -1,8 +1,7 @@
 // Finds the pairs of features:
 // 1. Each vertex of one body against the box, in the box's frame. If both are boxes, also in the other order.
 // 2. Edges against edges, if they are not parallel, face each other, and have their lines' nearest points
-// inside
-//    both.
+//    inside both.
 // Pairs that are farther apart than the reach are left out.
 #include "tools/bench/control/manifold.h"
 

@@ -105,6 +105,6 @@ def legend(entries, height, columns=3, width=WIDTH):
     return text
 
 
-# To be called after the first of several panels, because otherwise each panel would print the title, the
+# To be added after the first of several panels, because otherwise each panel would print the title, the
 # legend and the small print again.
 UNLABEL = "".join(f"unset label {i}\n" for i in range(101, 140))

@@ -75,11 +75,7 @@ class TaskBuilder {
     task_.scene.solids.push_back({-1, pose, boxCorners(size)});
     task_.scene.pairs.emplace_back(0, static_cast<int>(task_.scene.solids.size()) - 1);
   }
-  /// Adds weight
-  /// position - p
-  /// ^2 / 2 + turning
-  /// angles - w
-  /// ^2 / 2 for a body.
+  /// Adds weight |position - p|^2 / 2 + turning |angles - w|^2 / 2 for a body, with p and w from `goal`.
   void towards(int body, const Coordinates& goal, double weight, double turning) {
     for (int k = 0; k < 6; ++k) {
       const double w = k < 3 ? weight : turning;
