@@ -34,19 +34,38 @@ struct Columns {
   std::vector<std::string> places;  // place of each row in the file, for messages
 };
 
+// Without blanks and line ends at both ends.
+std::string_view trimmed(std::string_view text) {
+  const auto isBlank = [](char c) { return c == ' ' || c == '\t' || c == '\r'; };
+  while (!text.empty() && isBlank(text.front())) text.remove_prefix(1);
+  while (!text.empty() && isBlank(text.back())) text.remove_suffix(1);
+  return text;
+}
+
+// Removes the first cell of a line and the comma after it; `more` tells whether there was one. In quotes a
+// comma belongs to the cell, and two quotes stand for one (RFC 4180).
+std::string nextCell(std::string_view& line, bool& more) {
+  line = trimmed(line);
+  std::string inQuotes;
+  std::size_t i = 0;
+  if (!line.empty() && line.front() == '"') {
+    for (i = 1; i < line.size() && (line[i] != '"' || line.substr(i + 1, 1) == "\""); ++i) {
+      if (line[i] == '"') ++i;
+      inQuotes += line[i];
+    }
+  }
+  const bool quoted = i > 0 && i < line.size();
+  const std::size_t comma = line.find(',', quoted ? i : 0);
+  const std::string_view cell = trimmed(line.substr(0, comma));
+  more = comma != std::string_view::npos;
+  line.remove_prefix(more ? comma + 1 : line.size());
+  return quoted && cell.size() == i + 1 ? inQuotes : std::string(cell);
+}
+
 std::vector<std::string> cellsOf(std::string_view line) {
   std::vector<std::string> cells;
-  for (;;) {
-    const std::size_t comma = line.find(',');
-    std::string_view cell = line.substr(0, comma);
-    while (!cell.empty() && (cell.front() == ' ' || cell.front() == '\t')) cell.remove_prefix(1);
-    while (!cell.empty() && (cell.back() == ' ' || cell.back() == '\t' || cell.back() == '\r'))
-      cell.remove_suffix(1);
-    if (cell.size() > 1 && cell.front() == '"' && cell.back() == '"') cell = cell.substr(1, cell.size() - 2);
-    cells.emplace_back(cell);
-    if (comma == std::string_view::npos) return cells;
-    line.remove_prefix(comma + 1);
-  }
+  for (bool more = true; more;) cells.push_back(nextCell(line, more));
+  return cells;
 }
 
 bool isNumber(const std::string& cell, double& value) {

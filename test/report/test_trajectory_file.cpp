@@ -1,14 +1,18 @@
-// The warning about way points whose angles were wrapped: the checked motion is the long way.
+// Trajectories in files: names in quotes, and the warning about way points whose angles were wrapped, as the
+// checked motion is the long way.
 #include <catch2/catch.hpp>
+#include <fstream>
 #include <memory>
 
 #include "fcl_stpbv/report/trajectory_file.h"
+#include "test/reference/volume_files.h"
 #include "test/robot/urdf_texts.h"
 
 using namespace fcl_stpbv;
 using namespace fcl_stpbv::report;
 using test::joint;
 using test::link;
+using test::TemporaryFolder;
 
 namespace {
 
@@ -50,4 +54,22 @@ TEST_CASE("half a turn, a long slide and a joint with limits are nothing to tell
   CHECK(saidOf("continuous", of(0), of(-3.14159265)).empty());
   CHECK(saidOf("planar", Eigen::Vector3d(0, -9, 0), Eigen::Vector3d(9, 9, 1)).empty());
   CHECK(saidOf("revolute", of(-4), of(4)).empty());
+}
+
+TEST_CASE("names in quotes are read as CSV files quote them") {
+  const TemporaryFolder folder;
+  const std::string path = folder / "way.csv";
+  const auto read = [&](const std::string& text) {
+    std::ofstream(path) << text;
+    const Kinematics kinematics(std::make_shared<const RobotModel>(
+        parseUrdf(test::robot(link("a") + link("b") + link("c") + joint("x,y", "revolute", "a", "b") +
+                              joint("l&quot;r", "revolute", "b", "c")),
+                  "small.urdf")));
+    return readTrajectory(path, kinematics, Eigen::VectorXd::Zero(2)).points.back();
+  };
+  CHECK(read("\"x,y\",\"l\"\"r\"\n0,0\n0.5,0.25\n") == Eigen::Vector2d(0.5, 0.25));
+  CHECK(read(" \"l\"\"r\" ,\t\"x,y\" \r\n\"0\",0\r\n0.5, \"0.25\" \r\n") == Eigen::Vector2d(0.25, 0.5));
+  CHECK(read("l\"r,\"x,y\"\n0,0\n0.5,0.25") == Eigen::Vector2d(0.25, 0.5));
+  CHECK_THROWS_WITH(read("\"x,y,l\"\"r\n0,0\n1,1\n"), Catch::Contains("the first line names 3"));
+  CHECK_THROWS_WITH(read("\"x,y\"z,\"l\"\"r\"\n0,0\n1,1\n"), Catch::Contains("no moving joint"));
 }
