@@ -67,16 +67,11 @@ void followPairs(const Trajectory& trajectory, const std::string& path, Collisio
   }
 }
 
-const char* verdictText(MotionVerdict verdict) {
-  const char* const texts[] = {"free", "contact", "undecided"};
-  return texts[static_cast<int>(verdict)];
-}
-
 std::string verdictAlong(const CollisionReport& report, const PairReport& pair) {
   if (!report.trajectory || !pair.checked) return "";
-  if (pair.colliding) return verdictText(MotionVerdict::contact);
-  return verdictText(pair.freeAlong || staysFarther(report, pair) ? MotionVerdict::free
-                                                                  : MotionVerdict::undecided);
+  if (pair.colliding) return toString(MotionVerdict::contact);
+  return toString(pair.freeAlong || staysFarther(report, pair) ? MotionVerdict::free
+                                                               : MotionVerdict::undecided);
 }
 
 }  // namespace fcl_stpbv::report

@@ -15,6 +15,5 @@ void followPairs(const Trajectory& trajectory, const std::string& path, Collisio
 /// "free" where a proof or the closest approach shows that the measured `pair` stays clear all the way,
 /// "contact" where it comes within the margin, else "undecided"; "" where it was not followed.
 std::string verdictAlong(const CollisionReport& report, const PairReport& pair);
-const char* verdictText(MotionVerdict verdict);
 
 }  // namespace fcl_stpbv::report

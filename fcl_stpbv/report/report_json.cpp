@@ -1,27 +1,17 @@
 // A collision report as JSON: links, pairs, trajectory, summary. Numbers that are not finite become null.
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "fcl_stpbv/report/along_trajectory.h"
+#include "fcl_stpbv/report/json_values.h"
 #include "fcl_stpbv/report/report_formats.h"
 
 namespace fcl_stpbv::report {
 namespace {
 
-nlohmann::json numbers(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
-
 nlohmann::json joints(const Eigen::VectorXd& q, const Kinematics& kinematics) {
   nlohmann::json json = nlohmann::json::object();
   for (int i = 0; i < kinematics.size(); ++i) json[kinematics.names()[static_cast<std::size_t>(i)]] = q[i];
   return json;
-}
-
-nlohmann::json orNull(double value) {
-  return std::isfinite(value) ? nlohmann::json(value) : nlohmann::json();
-}
-
-nlohmann::json orNull(const std::string& text) {
-  return text.empty() ? nlohmann::json() : nlohmann::json(text);
 }
 
 nlohmann::json trajectoryJson(const CollisionReport& report) {

@@ -2,10 +2,10 @@
 #include "fcl_stpbv/report/trajectory_data.h"
 
 #include <algorithm>
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "fcl_stpbv/numbers.h"
+#include "fcl_stpbv/report/json_values.h"
 #include "fcl_stpbv/report/pair_measure.h"
 #include "fcl_stpbv/report/report_formats.h"
 
@@ -14,8 +14,6 @@ namespace fcl_stpbv::report {
 using namespace detail;
 
 namespace {
-
-nlohmann::json asList(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
 std::size_t pairAt(const CollisionReport& report, int row) {
   const std::pair<std::string, std::string>& names = report.trajectoryPairs[at(row)];
@@ -38,13 +36,12 @@ nlohmann::json contactOf(const CollisionReport& report, std::size_t i, std::size
           {"time_text", t.timeText(t.stop.until)},
           {"time_share", (t.stop.until - begin) / (end - begin)},
           {"distance", pair.answer.distance},
-          {"hull_distance",
-           std::isfinite(pair.hullDistance) ? nlohmann::json(pair.hullDistance) : nlohmann::json()},
+          {"hull_distance", orNull(pair.hullDistance)},
           {"over_cover1", pair.overCover1},
           {"over_cover2", pair.overCover2},
-          {"point1", asList(pair.answer.points[0])},
-          {"point2", asList(pair.answer.points[1])},
-          {"normal", asList(pair.answer.normal)},
+          {"point1", numbers(pair.answer.points[0])},
+          {"point2", numbers(pair.answer.points[1])},
+          {"normal", numbers(pair.answer.normal)},
           {"gradient", pair.gradient}};
 }
 
@@ -71,16 +68,6 @@ nlohmann::json trajectoryData(const CollisionReport& report,
     data["contact"] = contactOf(report, static_cast<std::size_t>(first - report.pairs.begin()),
                                 indexOf(t.at(t.stop.until)));
   return data;
-}
-
-bool isUndecided(const CollisionReport& report, const PairReport& pair) {
-  if (!report.trajectory || !pair.checked || pair.freeAlong) return false;
-  const TrajectoryReport& t = *report.trajectory;
-  const bool isFarther = pair.answer.distance - TrajectoryReport::kPrecision > report.margin;
-  return !(t.closestProven && isFarther) || t.followedUntil < t.trajectory.time.back() ||
-         std::any_of(t.undecided.begin(), t.undecided.end(), [&](const TrajectoryStop& stop) {
-           return report.trajectoryPairs[at(stop.pair)] == std::make_pair(pair.link1, pair.link2);
-         });
 }
 
 }  // namespace fcl_stpbv::report

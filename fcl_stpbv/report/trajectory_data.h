@@ -13,8 +13,4 @@ namespace fcl_stpbv::report {
 nlohmann::json trajectoryData(const CollisionReport& report,
                               const std::function<std::size_t(const Eigen::VectorXd&)>& indexOf);
 
-/// Whether the trajectory leaves open if the pair meets: neither a proof of its own nor its closest approach
-/// tells.
-bool isUndecided(const CollisionReport& report, const PairReport& pair);
-
 }  // namespace fcl_stpbv::report

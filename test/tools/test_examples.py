@@ -59,6 +59,8 @@ class Examples(unittest.TestCase):
             text, found = self.check_page(page)
             self.assertIn("proven free", found)
             self.assertEqual(re.findall(r"clearance is (\S+ mm)\.", text), re.findall(r"closest: (\S+ mm)", text))
+            classes = set(re.findall(r'<polygon class="([^"]*)"', page.read_text()))
+            self.assertEqual(classes, {"thing", "start", "between", "end"})
 
     def test_the_demo_fits_a_terminal_and_begins_with_what_it_found(self):
         done = subprocess.run([PROGRAMS / "demo"], capture_output=True, text=True, timeout=100)

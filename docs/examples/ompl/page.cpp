@@ -76,8 +76,7 @@ std::string pageOf(const Scene& scene, const report::TrajectoryReport& followed,
   std::string picture = "<svg viewBox=\"0 0 " + std::to_string(kWidth) + " " + std::to_string(kHeight) +
                         "\" role=\"img\" aria-label=\"the robot along its way\">\n";
   for (const Obstacle& obstacle : scene.obstacles)
-    picture +=
-        polygonOf(*obstacle.geometry(), obstacle.pose(), "fill:#d9a441;fill-opacity:0.35;stroke:#8a6410");
+    picture += polygonOf(*obstacle.geometry(), obstacle.pose(), "thing");
   const double last = followed.trajectory.time.back();
   const Eigen::VectorXd start = followed.at(0), end = followed.at(last);
   picture += robotAt(scene, start, "start", &end) + robotAt(scene, followed.at(0.5 * last), "between", &end) +

@@ -71,7 +71,7 @@ function showWords(report) {
   say('Cover', 'how far the two volumes stand off their hulls along the normal, that of the first link and that of the second, and their sum in the table');
   const used = new Set(report.pairs.flatMap(p => [p.cause, reasonWord(p.reason)]));
   for (const [word, text] of Object.entries(WORDS)) if (used.has(word)) say(word, text);
-  if (report.pairs.some(p => p.undecided)) say('not decided', 'the trajectory is neither proven free of this pair nor has a contact of it been found');
+  if (report.pairs.some(p => p.verdict === 'undecided')) say('not decided', 'the trajectory is neither proven free of this pair nor has a contact of it been found');
   if (report.pairs.some(p => !p.checked)) say('not checked', 'the SRDF, or without one the search, leaves this pair out; its figures are given all the same');
   if (report.pairs.some(p => p.contradicts_srdf)) say('contradicts the SRDF', 'the SRDF leaves the pair out as one that never collides, and it does');
   if (report.pairs.some(p => !p.continuous)) say('gradient may jump', 'neither of the two bodies is smooth');

@@ -1,0 +1,22 @@
+// Values of the report's JSON.
+#pragma once
+
+#include <Eigen/Core>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace fcl_stpbv::report {
+
+inline nlohmann::json numbers(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+
+/// A number that is not finite stands for one that is not known.
+inline nlohmann::json orNull(double value) {
+  return std::isfinite(value) ? nlohmann::json(value) : nlohmann::json();
+}
+
+inline nlohmann::json orNull(const std::string& text) {
+  return text.empty() ? nlohmann::json() : nlohmann::json(text);
+}
+
+}  // namespace fcl_stpbv::report
