@@ -22,10 +22,10 @@ bool isAuto(const BodyOptions::Length& length, const char* name) {
 
 GeometryOptions BodyOptions::ofAll() const {
   GeometryOptions options;
-  options.fitr = isAuto(r, "r");
-  options.fitR = R ? isAuto(*R, "R") : options.fitr;
-  if (!options.fitr) options.radii.r = std::get<double>(r);
-  if (!options.fitR && R) options.radii.R = std::get<double>(*R);
+  options.fitSmallRadius = isAuto(r, "r");
+  options.fitBigRadius = R ? isAuto(*R, "R") : options.fitSmallRadius;
+  if (!options.fitSmallRadius) options.radii.r = std::get<double>(r);
+  if (!options.fitBigRadius && R) options.radii.R = std::get<double>(*R);
   return options;
 }
 

@@ -63,7 +63,7 @@ class PythonPostureSearch {
     PostureOptions options;
     options.firstStart = start;
     options.starts = 1;
-    options.mends = options.anywhere = 0;
+    options.repairs = options.anywhere = 0;
     options.seed = seed;
     Interrupt interrupt;
     options.solver.stop = [&] { return interrupt(), false; };

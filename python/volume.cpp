@@ -121,8 +121,9 @@ void addStpBv(py::module_& module) {
             const std::vector<Eigen::Vector3d> list = toPoints(points.value);
             const GeometryOptions asked = BodyOptions{r, R}.ofAll();
             py::gil_scoped_release others;
-            return held(StpBv::build(list, detail::withFitted(asked.radii, asked.fitr, asked.fitR,
-                                                              [&] { return detail::sizeOf(list); })));
+            return held(
+                StpBv::build(list, detail::withFitted(asked.radii, asked.fitSmallRadius, asked.fitBigRadius,
+                                                      [&] { return detail::sizeOf(list); })));
           },
           py::arg("points"), py::arg("r") = 0.01, py::arg("R") = py::none(),
           "Volume around an (n, 3) array of points; raises Error naming what would work. r, R: lengths (m), "

@@ -9,18 +9,19 @@
 namespace fcl_stpbv::tools {
 
 struct AskedRadii {
-  std::optional<double> r, R;       ///< lengths; StpBvOptions' values where not given
-  bool fitr = false, fitR = false;  ///< those that fit the body's size, instead (docs/choosing_r_and_R.md)
+  std::optional<double> r, R;  ///< lengths; StpBvOptions' values where not given
+  bool fitSmallRadius = false,
+       fitBigRadius = false;  ///< those that fit the body's size, instead (docs/choosing_r_and_R.md)
 
   AskedRadii() = default;
   /// What the options say, "" where they are not given; R is fitted then where r is.
   AskedRadii(const std::string& rText, const std::string& RText)
-      : fitr(rText == kAuto), fitR(RText.empty() ? fitr : RText == kAuto) {
-    if (!rText.empty() && !fitr) r = std::stod(rText);
-    if (!RText.empty() && !fitR) R = std::stod(RText);
+      : fitSmallRadius(rText == kAuto), fitBigRadius(RText.empty() ? fitSmallRadius : RText == kAuto) {
+    if (!rText.empty() && !fitSmallRadius) r = std::stod(rText);
+    if (!RText.empty() && !fitBigRadius) R = std::stod(RText);
   }
 
-  bool fits() const { return fitr || fitR; }
+  bool fits() const { return fitSmallRadius || fitBigRadius; }
   /// What is not fitted.
   StpBvOptions lengths() const {
     const StpBvOptions usual;

@@ -117,7 +117,8 @@ Content readInput(const std::string& path, double factor) {
 
 StpBvOptions radiiFor(const Points& points, const ConversionOptions& options) {
   const AskedRadii& asked = options.radii;
-  return withFitted(asked.lengths(), asked.fitr, asked.fitR, [&] { return sizeOf(points); });
+  return withFitted(asked.lengths(), asked.fitSmallRadius, asked.fitBigRadius,
+                    [&] { return sizeOf(points); });
 }
 
 Report convert(const std::string& input, const ConversionOptions& options) {

@@ -105,8 +105,8 @@ void readLink(const std::string& text, GeometryOptions& options) {
 
 void setRadii(const RobotArguments& a, GeometryOptions& geometry) {
   const AskedRadii asked(a.r, a.R);
-  geometry.fitr = asked.fitr;
-  geometry.fitR = asked.fitR;
+  geometry.fitSmallRadius = asked.fitSmallRadius;
+  geometry.fitBigRadius = asked.fitBigRadius;
   geometry.radii = asked.lengths();
   if (!asked.fits() && geometry.radii.R <= geometry.radii.r)
     throw Error("-r " + a.r + (a.R.empty() ? "" : " -R " + a.R) +

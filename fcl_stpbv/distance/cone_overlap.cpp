@@ -189,8 +189,8 @@ class WaysOut {
       if (std::abs(g) <= 0.25 * q_.rounding.across) break;
       (g < 0.0 ? low : high) = at;
       const Vector3d along = arc.t.cross(at.n);
-      const double bend = along.dot(coreCurvature(patch, at.n) * along) - at.depth;
-      Vector3d next = acrossLine((at.n - (g / bend) * along).normalized(), arc.t);
+      const double curvature = along.dot(coreCurvature(patch, at.n) * along) - at.depth;
+      Vector3d next = acrossLine((at.n - (g / curvature) * along).normalized(), arc.t);
       if (!(low.n.cross(next).dot(arc.t) > 0.0 && next.cross(high.n).dot(arc.t) > 0.0)) {
         next = (low.n + high.n).normalized();
         if (next == low.n || next == high.n) break;

@@ -22,7 +22,7 @@ using namespace detail;
 
 /// The matrix `t` with `w^T t w = a.(w x (w x n))`: second-order change of a rotating body's normal, times
 /// `a`.
-Matrix3d bend(const Vector3d& a, const Vector3d& n) {
+Matrix3d secondTurn(const Vector3d& a, const Vector3d& n) {
   return 0.5 * (a * n.transpose() + n * a.transpose()) - a.dot(n) * Matrix3d::Identity();
 }
 
@@ -53,8 +53,8 @@ void secondOrder(const Touch& touch, const Isometry3d& poseA, const Isometry3d& 
   add(9, 6, crossMatrix(n));  // (w_B x n).(v_B - v_A)
   add(9, 0, -crossMatrix(n));
   add(3, 9, n * armA.transpose() - armA.dot(n) * Matrix3d::Identity());  // armA.(w_A x (w_B x n))
-  h.block<3, 3>(3, 3) -= bend(armA, n);
-  h.block<3, 3>(9, 9) -= bend(fromB, n);
+  h.block<3, 3>(3, 3) -= secondTurn(armA, n);
+  h.block<3, 3>(9, 9) -= secondTurn(fromB, n);
   result.matrix = 0.5 * (h + h.transpose());
 
   result.normal = meeting.frame * turn;

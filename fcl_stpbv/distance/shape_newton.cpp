@@ -131,10 +131,10 @@ struct Facing {
 
   /// The witness point on the first core.
   Vector3d point(const Vector3d& onA) const {
-    const auto bend = [](const NormalCone& cone) {
+    const auto sumOfRadii = [](const NormalCone& cone) {
       return cone.count == 2 ? cone.along[0] + cone.along[1] : 1e300;
     };
-    if (coneA.count == 2 && !(bend(coneB) < bend(coneA))) return pointA;
+    if (coneA.count == 2 && !(sumOfRadii(coneB) < sumOfRadii(coneA))) return pointA;
     if (coneB.count == 2) return pointB - gap * n;
     const Vector3d u = line(coneA), v = line(coneB), normal = u.cross(v);
     if (!cross()) {  // `onA` may be off the line through the support point; only that is opposite

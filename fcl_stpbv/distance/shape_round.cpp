@@ -35,7 +35,7 @@ class ConeSide {
     for (int i = 0; i < kSteps; ++i) {
       ++q.pairs;
       if (std::abs(x.slope) <= 0.25 * q.rounding.across * cos_) break;
-      double turn = x.bend < 0.0 ? -x.slope / x.bend : std::copysign(0.5, x.slope);
+      double turn = x.curvature < 0.0 ? -x.slope / x.curvature : std::copysign(0.5, x.slope);
       turn = std::clamp(turn, -1.0, 1.0);
       State y = at(q, turned(x.e, turn), x.view.patch);
       // Past a region boundary Newton's step may overshoot. The slope is continuous, so it has a zero in
@@ -65,7 +65,7 @@ class ConeSide {
   struct State {
     Vector3d e;
     SupportPoint view;
-    double gap, slope, bend;  // and its derivatives by the angle around the axis
+    double gap, slope, curvature;  // and its derivatives by the angle around the axis
   };
 
   State at(ShapeQuery& q, const Vector3d& e, int hint) const {
@@ -75,7 +75,7 @@ class ConeSide {
     const Vector3d difference = apex_ - x.view.point;
     x.gap = x.view.gap(apex_);
     x.slope = turning.dot(difference);
-    x.bend = cos_ * e.dot(difference) - turning.dot(curvatureRadii(q.body, x.view) * turning);
+    x.curvature = cos_ * e.dot(difference) - turning.dot(curvatureRadii(q.body, x.view) * turning);
     return x;
   }
   /// The zero of the slope between `x` and `y`, which is `turn` away, by the Illinois method.
@@ -134,9 +134,9 @@ Nearest nearestByAngle(ShapeQuery& q, const Vector3d& middle, const Vector3d& ax
     w += found.gap * Matrix3d::Identity();
     const Vector3d e1 = (t - t.dot(n) * n).normalized(), e2 = n.cross(e1);
     const double m11 = e1.dot(w * e1), m22 = e2.dot(w * e2), m12 = e1.dot(w * e2);
-    const double bend = radius * t.dot(e1) * t.dot(e1) * m22 / (m11 * m22 - m12 * m12) - n.dot(e);
-    if (!(bend > 0.0)) break;
-    const double turn = std::clamp(-slope / bend, -0.5, 0.5);
+    const double curvature = radius * t.dot(e1) * t.dot(e1) * m22 / (m11 * m22 - m12 * m12) - n.dot(e);
+    if (!(curvature > 0.0)) break;
+    const double turn = std::clamp(-slope / curvature, -0.5, 0.5);
     e = (std::cos(turn) * e + std::sin(turn) * t).normalized();
   }
   return best;

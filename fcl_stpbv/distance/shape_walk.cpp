@@ -49,12 +49,12 @@ Packed widestOfLine(const PosedPatch& edge, const ShapeFeature& line, Packed n) 
     const EdgeView view = viewEdge(edge, n);
     const Packed difference = anchors - view.offset, e = cross(t, n);
     const double around = dot(cross(edge.axis, n), e) / view.c, gap = dot(n, anchors) - view.rise,
-                 bend = edge.radii->rho + (view.around - edge.radii->rho) * around * around + gap;
-    if (!(bend > 0.0)) {
+                 curvature = edge.radii->rho + (view.around - edge.radii->rho) * around * around + gap;
+    if (!(curvature > 0.0)) {
       n = unitAcross(difference, t, n);
       continue;
     }
-    const double step = dot(difference, e) / bend;
+    const double step = dot(difference, e) / curvature;
     n = unnormalizedOr(n + step * e, n).unit();
     if (step * step <= kConverged2) break;
   }
@@ -129,10 +129,10 @@ Packed widestOfSide(const PosedPatch& a, const ShapeFeature& side, const Packed&
     const EdgeView view = viewEdge(a, m);
     const Packed difference = anchors - view.offset;
     const double around = dot(cross(a.axis, m), turning) / view.c,
-                 bend = side.cosine * dot(e, difference) - a.radii->rho * dot(turning, turning) -
-                        (view.around - a.radii->rho) * around * around;
-    if (!(bend < 0.0)) break;
-    const double turn = -dot(turning, difference) / bend;
+                 curvature = side.cosine * dot(e, difference) - a.radii->rho * dot(turning, turning) -
+                             (view.around - a.radii->rho) * around * around;
+    if (!(curvature < 0.0)) break;
+    const double turn = -dot(turning, difference) / curvature;
     e = unitAcross(e + turn * cross(side.axis, e), side.axis, e);
     if (turn * turn <= kConverged2) break;
   }

@@ -135,7 +135,7 @@ class PostureSearch {
                      {{kCostWeight, kSoft}, {kCostWeight, kFirm}}, solver_));
       if (stopped()) return;
     }
-    for (int i = 0; i < options_.mends && goesOn(); ++i) {
+    for (int i = 0; i < options_.repairs && goesOn(); ++i) {
       const std::optional<Eigen::VectorXd> x = starts.mended(x_, solver_);
       if (!x) break;
       const ApproachOptions firm;  // without the cost, which would pull the pairs into each other again
@@ -165,11 +165,12 @@ class PostureSearch {
       best_.conflict.clear();
       best_.conflictLimits.clear();
     }
-    if (!problem_.still().empty()) {  // these collide, whatever else holds
+    if (!problem_.unavoidable().empty()) {  // these collide, whatever else holds
       best_.feasible = false;
       best_.status = "bodies that no joint can move apart collide";
       best_.violations = problem_.violations(x_, solver_.tolerance);
-      best_.conflict.insert(best_.conflict.begin(), problem_.still().begin(), problem_.still().end());
+      best_.conflict.insert(best_.conflict.begin(), problem_.unavoidable().begin(),
+                            problem_.unavoidable().end());
     }
   }
 

@@ -19,7 +19,7 @@ struct PostureOptions {
   std::uint64_t seed = 1;  ///< seed of the random starts
   /// If no start gives a feasible posture: largest number of times that the joints on which the best
   /// posture's violated inequalities depend are redrawn, and the problem is solved again from there.
-  int mends = 2;
+  int repairs = 2;
   int anywhere = 20;  ///< if that fails, too: number of starts anywhere within the joint limits
 };
 

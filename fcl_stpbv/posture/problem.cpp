@@ -155,7 +155,7 @@ std::vector<Violation> PostureProblem::missed(const Eigen::Ref<const Eigen::Vect
 std::vector<Violation> PostureProblem::violations(const Eigen::Ref<const Eigen::VectorXd>& x,
                                                   double tolerance) {
   std::vector<Violation> list = missed(x, tolerance);
-  list.insert(list.end(), still_.begin(), still_.end());
+  list.insert(list.end(), unavoidable_.begin(), unavoidable_.end());
   sortWorstFirst(list);
   return list;
 }

@@ -114,11 +114,11 @@ class PostureProblem {
 
   /// Adds violations that do not depend on the variables, such as a collision of two bodies that cannot move.
   /// violations() lists them for every x.
-  void addStill(const std::vector<Violation>& violations) {
-    still_.insert(still_.end(), violations.begin(), violations.end());
+  void addUnavoidable(const std::vector<Violation>& violations) {
+    unavoidable_.insert(unavoidable_.end(), violations.begin(), violations.end());
   }
-  /// All violations that were added by addStill().
-  const std::vector<Violation>& still() const { return still_; }
+  /// All violations that were added by addUnavoidable().
+  const std::vector<Violation>& unavoidable() const { return unavoidable_; }
 
   /// The variables for the coordinates q: q clamped to the bounds, and the same value for all additional
   /// variables that were added together, with sum 1.
@@ -132,7 +132,7 @@ class PostureProblem {
   long queries() const;
   /// The constraints and bounds that are violated by more than `tolerance` at x, worst first.
   std::vector<Violation> violations(const Eigen::Ref<const Eigen::VectorXd>& x, double tolerance);
-  /// violations() without those of still().
+  /// violations() without those of unavoidable().
   std::vector<Violation> missed(const Eigen::Ref<const Eigen::VectorXd>& x, double tolerance);
 
  private:
@@ -143,7 +143,7 @@ class PostureProblem {
   Eigen::VectorXd lower_, upper_;
   // The joint that mimics the coordinate and sets its limit; "" if none does.
   std::vector<std::string> lowerOf_, upperOf_;
-  std::vector<Violation> still_;
+  std::vector<Violation> unavoidable_;
   // Index of the first variable and number of variables of each addVariables()
   std::vector<std::pair<int, int>> shares_;
   std::vector<std::shared_ptr<PostureRows>> rows_;

@@ -182,7 +182,7 @@ PostureSetup setUp(const PostureTask& asked, const PostureScene& given, double i
                             .empty();
     (moves ? moving : still).push_back(pair);
   }
-  setup.problem->addStill(nearerThan(task.collisionMargin, still, scene, kinematics, setup.start));
+  setup.problem->addUnavoidable(nearerThan(task.collisionMargin, still, scene, kinematics, setup.start));
   if (moving.empty()) return setup;
   // The lengths over which rows are exact and pairs have influence begin at the margin (or at 0, if it is
   // negative). So they are the same as without a margin.

@@ -218,7 +218,7 @@ struct PostureSetup {
   /// infinite.
   Eigen::VectorXd spread;
   /// The pairs that the problem keeps apart. Pairs whose bodies cannot move relative to each other are only
-  /// checked; if they collide they are in PostureProblem::still().
+  /// checked; if they collide they are in PostureProblem::unavoidable().
   std::vector<CheckedPair> pairs;
 };
 

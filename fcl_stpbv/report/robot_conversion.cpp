@@ -33,8 +33,8 @@ ordered_json optionsOf(const RobotConversion& conversion) {
   const GeometryOptions& g = report.files.geometry;
   ordered_json json;
   json["parts"] = report.partsAuto ? ordered_json("auto") : ordered_json(report.partsAll);
-  json["r"] = g.fitr ? ordered_json("auto") : ordered_json(g.radii.r);
-  json["R"] = g.fitR ? ordered_json("auto") : ordered_json(g.radii.R);
+  json["r"] = g.fitSmallRadius ? ordered_json("auto") : ordered_json(g.radii.r);
+  json["R"] = g.fitBigRadius ? ordered_json("auto") : ordered_json(g.radii.R);
   if (g.advice)
     json["advise"] = {g.advice->clearance, g.advice->acceleration, g.advice->speed,    g.advice->turning,
                       g.advice->period,    g.advice->distance,     g.advice->bothRound};

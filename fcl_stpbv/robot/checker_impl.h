@@ -39,7 +39,7 @@ struct PlacedBody {
 /// A pair of bodies and its separating plane.
 struct KeptPair {
   std::size_t a, b;     ///< indices of the bodies
-  double bend;          ///< half the second body's R; infinite if it is no STP-BV (m)
+  double halfR;         ///< half the second body's R; infinite if it is no STP-BV (m)
   double rounding;      ///< rounding of the gap along a kept plane, without the rounding of the poses (m)
   long lastHit = 0;     ///< number of the last configuration in which the pair collided
   bool kept = false;    ///< whether the plane's directions are known

@@ -75,7 +75,7 @@ void CollisionChecker::Impl::addPair(const CheckedPair& pair) {
   added.a = at(pair.body);
   added.b = at(pair.other) + (pair.obstacle ? geometry_->bodies.size() : 0);
   const PlacedBody &a = bodies_[added.a], &b = bodies_[added.b];
-  added.bend = b.body.volume ? 0.5 * b.body.volume->radii().R : kInfinity;
+  added.halfR = b.body.volume ? 0.5 * b.body.volume->radii().R : kInfinity;
   added.rounding = kGapRounding * (a.radius + b.radius) + 2 * (a.body.supportError() + b.body.supportError());
   if (a.convex && b.convex) added.rounding += kGapRounding * (a.body.extent() + b.body.extent());
   // For 1 + u.w, which stands for |t|^2 / 2.

@@ -231,7 +231,7 @@ CollisionConstraints::Witness CollisionConstraints::known(std::size_t row) const
 double CollisionConstraints::pairRow(std::size_t row, double* values) {
   const Witness witness = ask(row);
   double slope, curvature;
-  const double value = bend(row, witness.distance, slope, curvature);
+  const double value = levelled(row, witness.distance, slope, curvature);
   if (values) writeRow(row, witness, slope, values);
   return value;
 }

@@ -223,7 +223,7 @@ class CollisionConstraints {
   Witness known(std::size_t row) const;
   double pairRow(std::size_t row, double* values);
   void writeRow(std::size_t row, const Witness& witness, double slope, double* values) const;
-  double bend(std::size_t row, double d, double& slope, double& curvature) const;
+  double levelled(std::size_t row, double d, double& slope, double& curvature) const;
   void bodyVelocities(std::size_t row, Twist& first, Twist& second) const;
   bool move(std::size_t row);
   bool rateRow(std::size_t row, RowRates& rates, double* values);

@@ -94,7 +94,7 @@ double CollisionConstraints::gradientRateBound(int row) const {
   const Row& r = rows_[at(row)];
   const Witness w = known(at(row));
   double slope, curvature;
-  bend(at(row), w.distance, slope, curvature);
+  levelled(at(row), w.distance, slope, curvature);
   if (slope == 0 && curvature == 0) return 0;
   // A pair with a slope is not far away, so its distance cannot be measured.
   if (w.status == DistanceStatus::invalid) return kInfinity;

@@ -38,7 +38,7 @@ Bent levelOff(double d, double start, double end) {
 // For a row of whole bodies: the distance minus the transition function of its parts' rows, plus that
 // function's final value. So it is constant where the parts' rows are exact, and equals the distance where
 // they are constant.
-double CollisionConstraints::bend(std::size_t row, double d, double& slope, double& curvature) const {
+double CollisionConstraints::levelled(std::size_t row, double d, double& slope, double& curvature) const {
   const Row& r = rows_[row];
   const bool unknown = d == std::numeric_limits<double>::lowest();
   Bent bent = levelOff(d, options_.exactUpTo, options_.influence);

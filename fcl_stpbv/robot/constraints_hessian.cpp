@@ -52,7 +52,7 @@ bool CollisionConstraints::rateRow(std::size_t row, RowRates& rates, double* val
   const Eigen::Index i = static_cast<Eigen::Index>(row);
   const Witness witness = ask(row);
   double slope, curvature;
-  rates.d[i] = bend(row, witness.distance, slope, curvature);
+  rates.d[i] = levelled(row, witness.distance, slope, curvature);
   writeRow(row, witness, slope, values);
   rates.speed[i] = rates.drift[i] = 0;
   moves_[row] = {};
@@ -132,7 +132,7 @@ bool CollisionConstraints::rowChange(std::size_t row, double* change) {
   const Vector3d& n = witness.normal;
   const double speed = n.dot(velocityOf(witness.point[1], second) - velocityOf(witness.point[0], first));
   double slope, curvature;
-  bend(row, witness.distance, slope, curvature);
+  levelled(row, witness.distance, slope, curvature);
   Vector3d along[2], moment[2], alongChange[2], momentChange[2];
   for (std::size_t side = 0; side < 2; ++side) {
     const double sign = side == 0 ? -1 : 1;
@@ -170,7 +170,7 @@ void CollisionConstraints::differences(const ConstVector& q, const ConstVector& 
       }
       const Witness witness = ask(row);
       double slope, curvature;
-      bend(row, witness.distance, slope, curvature);
+      levelled(row, witness.distance, slope, curvature);
       writeRow(row, witness, slope, values.data());
       if (witness.status == DistanceStatus::invalid) continue;
       const double factor = far < 0 ? -0.5 / step : far > 0 ? 0.5 / step : 0;

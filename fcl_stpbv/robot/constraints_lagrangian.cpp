@@ -128,7 +128,7 @@ bool CollisionConstraints::rowHessian(std::size_t row) {
   h.noalias() = twists.transpose() * pushes;
   addTwistChanges(row, witness);
   double slope, curvature;
-  bend(row, witness.distance, slope, curvature);
+  levelled(row, witness.distance, slope, curvature);
   if (slope != 1 || curvature != 0) {
     change_.segment(start, count).setZero();
     writeRow(row, witness, 1.0, change_.data());

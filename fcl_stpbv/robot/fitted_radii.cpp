@@ -36,12 +36,12 @@ double fittedR(double ball, double r) {
   return bulge > 0 ? r + (ball * ball + bulge * bulge) / (2 * bulge) : StpBvOptions().R;
 }
 
-StpBvOptions withFitted(const StpBvOptions& given, bool fitr, bool fitR,
+StpBvOptions withFitted(const StpBvOptions& given, bool fitSmallRadius, bool fitBigRadius,
                         const std::function<BodySize()>& size) {
-  if (!fitr && !fitR) return given;
+  if (!fitSmallRadius && !fitBigRadius) return given;
   const BodySize body = size();
-  const double r = fitr ? fittedRadii(body).r : given.r;
-  return {r, fitR ? fittedR(body.ball, r) : given.R};
+  const double r = fitSmallRadius ? fittedRadii(body).r : given.r;
+  return {r, fitBigRadius ? fittedR(body.ball, r) : given.R};
 }
 
 }  // namespace fcl_stpbv::detail

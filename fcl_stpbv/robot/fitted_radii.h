@@ -31,7 +31,7 @@ double fittedR(double ball, double r);
 
 /// The radii given, with an r and an R that fit the body where they are asked for; `size` is called only
 /// then.
-StpBvOptions withFitted(const StpBvOptions& given, bool fitr, bool fitR,
+StpBvOptions withFitted(const StpBvOptions& given, bool fitSmallRadius, bool fitBigRadius,
                         const std::function<BodySize()>& size);
 
 }  // namespace fcl_stpbv::detail

@@ -20,11 +20,11 @@ double turnSince(const KeptPlane& plane, const Isometry3d& frameA, const Isometr
 
 FCL_STPBV_VECTORIZED
 double gapAlong(const KeptPlane& plane, const Isometry3d& frameA, const Isometry3d& frameB,
-                const SphereCentre& a, const SphereCentre& b, double radius, double bend) {
+                const SphereCentre& a, const SphereCentre& b, double radius, double halfR) {
   const Packed u = turned(frameA, plane.outward[0]), w = turned(frameB, plane.outward[1]), t = u + w;
   const double turn2 = dot(t, t);
   double rise = radius * std::sqrt(turn2);
-  if (bend < kInfinity) rise = std::min(rise, bend * turn2 - dot(turned(frameB, plane.touching), t));
+  if (halfR < kInfinity) rise = std::min(rise, halfR * turn2 - dot(turned(frameB, plane.touching), t));
   return dot(u, b.at - a.at) - plane.height - rise;
 }
 

@@ -27,7 +27,7 @@ inline Packed turned(const Eigen::Isometry3d& frame, const Packed& v) {
 double turnSince(const KeptPlane& plane, const Eigen::Isometry3d& frameA, const Eigen::Isometry3d& frameB);
 
 /// Lower bound on the gap along a cached plane at the present poses (m). `radius`: radius of the second
-/// body's bounding sphere (m); `bend`: half its R, infinite if it is no STP-BV (m).
+/// body's bounding sphere (m); `halfR`: half its R, infinite if it is no STP-BV (m).
 ///
 /// Let u be the first body's stored direction, and w the second body's. When the plane was stored, w was -u;
 /// now they differ by t = u + w. The second body's support along -u has two upper bounds. First, the support
@@ -35,6 +35,6 @@ double turnSince(const KeptPlane& plane, const Eigen::Isometry3d& frameA, const 
 /// Second, an STP-BV lies in the ball of radius R that touches it at the plane; the support of that ball
 /// along -u is higher by R |t|^2 / 2 - point.t.
 double gapAlong(const KeptPlane& plane, const Eigen::Isometry3d& frameA, const Eigen::Isometry3d& frameB,
-                const SphereCentre& a, const SphereCentre& b, double radius, double bend);
+                const SphereCentre& a, const SphereCentre& b, double radius, double halfR);
 
 }  // namespace fcl_stpbv::detail

@@ -29,8 +29,8 @@ std::string defaultCacheFolder();
 struct GeometryOptions {
   StpBvOptions radii;  ///< r and R for the volumes of every link
   /// Whether to choose r by each body's size, instead of radii.r (docs/choosing_r_and_R.md).
-  bool fitr = false;
-  bool fitR = false;  ///< whether to choose R by each body's size, instead of radii.R
+  bool fitSmallRadius = false;
+  bool fitBigRadius = false;  ///< whether to choose R by each body's size, instead of radii.R
   /// If set, adviseRadii() chooses both radii of each mesh for this task; this overrides the members above. A
   /// warning counts the bodies that cannot keep both budgets. Primitives keep the radii above.
   std::optional<RadiiTask> advice;

@@ -25,7 +25,7 @@ using Points = std::vector<Eigen::Vector3d>;
 
 // Whether r or R of a link's bodies are chosen by the body's size.
 bool areFitted(const GeometryOptions& options, const std::string& link) {
-  return options.links.count(link) == 0 && (options.fitr || options.fitR || options.advice);
+  return options.links.count(link) == 0 && (options.fitSmallRadius || options.fitBigRadius || options.advice);
 }
 
 std::string textOf(const RadiiTask& task) {
@@ -171,14 +171,15 @@ class VolumeMaker {
 VolumeKey volumeKey(const GeometryOptions& options, const std::string& link, const std::string& meshKey) {
   if (!areFitted(options, link)) return {meshKey, radiiFor(options, link, nullptr)};
   if (options.advice) return {meshKey + "\nadvised " + textOf(*options.advice), options.radii};
-  return {meshKey + (options.fitr ? "\nr fitted" : "") + (options.fitR ? "\nR fitted" : ""), options.radii};
+  return {meshKey + (options.fitSmallRadius ? "\nr fitted" : "") + (options.fitBigRadius ? "\nR fitted" : ""),
+          options.radii};
 }
 
 StpBvOptions radiiFor(const GeometryOptions& options, const std::string& link,
                       const std::function<BodySize()>& size) {
   const auto own = options.links.find(link);
   if (own != options.links.end()) return own->second;
-  return withFitted(options.radii, options.fitr, options.fitR, size);
+  return withFitted(options.radii, options.fitSmallRadius, options.fitBigRadius, size);
 }
 
 void makeVolume(const GeometryOptions& options, const std::string& link, const ShapeSource& source,

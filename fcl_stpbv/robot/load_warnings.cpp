@@ -63,8 +63,8 @@ std::vector<std::string> raisedR(const RobotModel& robot, const RobotGeometry& g
                                  const GeometryOptions& options, const std::string& remedy) {
   const Body* most = nullptr;
   for (const Body& body : geometry.bodies) {
-    const bool given =
-        !options.fitR || options.links.count(robot.links[static_cast<std::size_t>(body.link)].name) > 0;
+    const bool given = !options.fitBigRadius ||
+                       options.links.count(robot.links[static_cast<std::size_t>(body.link)].name) > 0;
     // A single vertex gives a ball for any R.
     if (!body.primitive || body.volume->vertexCount() < 2 || !given) continue;
     if (body.volume->radii().R <= body.radii.R) continue;

@@ -28,7 +28,7 @@ double CollisionChecker::Impl::planeGap(KeptPair& pair) const {
   if (!pair.lifted) lift(pair);
   const PlacedBody &a = bodies_[pair.a], &b = bodies_[pair.b];
   return gapAlong(pair.plane, state_.link[a.frame], state_.link[b.frame], centres_[pair.a], centres_[pair.b],
-                  b.radius, pair.bend) -
+                  b.radius, pair.halfR) -
          pair.rounding - slack_;
 }
 

@@ -147,7 +147,7 @@ TEST_CASE("the search ends by itself, also where the solver's line search would 
   Random random(3);
   PostureOptions options;
   options.starts = 1;
-  options.mends = options.anywhere = 0;
+  options.repairs = options.anywhere = 0;
   options.solver.maxSeconds = 2;  // it takes a thousandth of this
   int missed = 0;
   for (int trial = 0; trial < 100; ++trial) {
@@ -248,7 +248,7 @@ TEST_CASE("what a constraint or the call to stop throws reaches the caller, when
       setup.problem->add(std::make_shared<Failing>(kind, after));
       PostureOptions options;
       options.starts = 1;
-      options.mends = options.anywhere = 0;
+      options.repairs = options.anywhere = 0;
       try {
         findPosture(setup, options);
       } catch (const std::domain_error& error) {

@@ -59,7 +59,7 @@ TEST_CASE("pairs that nothing moves count as checked") {
   const PostureSetup setup =
       setUp(parseTask(R"({"base": "fixed", "placements": []})", "task.json"), slideAmong("0 2 0"));
   CHECK(std::count_if(setup.pairs.begin(), setup.pairs.end(), [](const auto& p) { return p.obstacle; }) == 2);
-  CHECK(setup.problem->still().empty());
+  CHECK(setup.problem->unavoidable().empty());
   CHECK(setup.problem->inequalities() == 1);
 }
 

@@ -61,9 +61,9 @@ TEST_CASE("fitted radii come from the cache with the volume, and the mesh is not
   TemporaryFolder folder;
   const RobotModel robot = tetrahedron(folder, 0.3);
   GeometryOptions options = cachedIn(folder / "cache");
-  for (const auto& [fitr, fitR] : {std::pair{true, true}, {true, false}, {false, true}}) {
-    options.fitr = fitr;
-    options.fitR = fitR;
+  for (const auto& [fitSmallRadius, fitBigRadius] : {std::pair{true, true}, {true, false}, {false, true}}) {
+    options.fitSmallRadius = fitSmallRadius;
+    options.fitBigRadius = fitBigRadius;
     long before = pagesOfChildren();
     const Body cold = loadGeometry(robot, options).bodies[0];
     CHECK(pagesOfChildren() > before);
@@ -74,8 +74,8 @@ TEST_CASE("fitted radii come from the cache with the volume, and the mesh is not
     CHECK(warm.bodies[0].radii.r == cold.radii.r);
     CHECK(warm.bodies[0].radii.R == cold.radii.R);
     CHECK(sameVolume(*warm.bodies[0].volume, *cold.volume));
-    CHECK((cold.radii.r != options.radii.r) == fitr);
-    CHECK((cold.radii.R != options.radii.R) == fitR);
+    CHECK((cold.radii.r != options.radii.r) == fitSmallRadius);
+    CHECK((cold.radii.R != options.radii.R) == fitBigRadius);
   }
 }
 
@@ -87,7 +87,7 @@ TEST_CASE("each mesh gets the radii that its task asks for, and they are kept wi
   task.acceleration = 4;
   task.clearance = 0.05;
   options.advice = task;
-  options.fitr = true;  // the advice overrides this
+  options.fitSmallRadius = true;  // the advice overrides this
   const RobotGeometry cold = loadGeometry(robot, options);
   const Body& body = cold.bodies[0];
   const RadiiAdvice alone = adviseRadii(loadPoints(body.file), task);

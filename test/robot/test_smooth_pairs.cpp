@@ -48,7 +48,7 @@ std::string randomRobot(Random& random) {
 GeometryOptions uncached(bool fit) {
   GeometryOptions options;
   options.cacheFolder.clear();
-  options.fitr = options.fitR = fit;
+  options.fitSmallRadius = options.fitBigRadius = fit;
   return options;
 }
 
