@@ -1,3 +1,5 @@
+// Sorts all pairs of links by what is known before any distance: an SRDF's reason, rigidly joined, adjacent,
+// or open.
 #include "fcl_stpbv/robot/pair_tree.h"
 
 #include <string>

@@ -1,3 +1,5 @@
+// Reads a link's shapes element by element. What urdfdom would pass over, such as a second geometry or a size
+// that is no number, is a fault with a message.
 #include "fcl_stpbv/robot/urdf_shape.h"
 
 #include "fcl_stpbv/error.h"

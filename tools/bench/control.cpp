@@ -88,6 +88,7 @@ Measurement measure(const Arguments& a) {
                              {"clearance", significant(m.clearance, 3)},
                              {"worst_clearance", significant(w.clearance, 3)},
                              {"tracking", significant(m.tracking, 3)},
+                             {"us", significant(m.solve, 3)},
                              {"failed", w.failed}});
     }
   return result;

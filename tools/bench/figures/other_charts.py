@@ -88,7 +88,7 @@ def radii(height=420):
     data = measured("radii")
     robots = list(dict.fromkeys(row["robot"] for row in data["rows"]))
     top = 1.15 * max(row["margin only"] for row in data["rows"]) + 1
-    small_print = ["Pairs in the neutral posture, all but adjacent and rigid ones, R = 10 m. auto: r fitted to each link.",
+    small_print = ["Pairs in the neutral posture, all but adjacent and rigid ones, R = 10 m. auto: r and R fitted to each link.",
                    "By their margins only: the volumes meet, the convex hulls do not. tools/bench/radii"]
     entries = [*((palette.SWEEPS[i], 7, robot) for i, robot in enumerate(robots)), (palette.NEUTRAL, 7, "one r for all links"), (palette.NEUTRAL, 2, "auto")]
     text = single(height, small_print, legend_rows=1) + legend(entries, height, columns=5) + \

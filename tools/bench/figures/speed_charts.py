@@ -115,12 +115,14 @@ def solver_error(height=450):
 
 def model_error(height=430):
     data = measured("model_error")
+    left = [row["vertices"] for row in data["rows"] if row["sweep"] == "vertices"]
     # colour, name, line width and mark size, labels in the first and the second panel: {setting: offset}
     sweeps = {"r": (palette.SWEEPS[0], "r from 1 to 50 mm", 4, 1.0, {"1 mm": "0.9,0.5", "5 mm": "0.9,0.5", "50 mm": "0.9,0"},
                     {"1 mm": "0.9,0.5", "2 mm": "0.9,0.5", "50 mm": "-0.5,0.9"}),
               "R": (palette.SWEEPS[1], "R from 0.3 to 100 m", 2.5, 0.8, {"0.3 m": "-1.5,0.9", "3 m": "-0.5,0.9", "100 m": "-3,-0.9"},
                     {"0.3 m": "-1.5,0.9", "3 m": "-1,-0.9", "100 m": "0.9,0"}),
-              "vertices": (palette.SWEEPS[2], "vertices left by reduce(): 65 to 2", 2, 0.6, {"16": "-2.6,-0.6", "8": "-2.2,-0.4", "2": "-2.2,-0.4"}, {})}
+              "vertices": (palette.SWEEPS[2], f"vertices left by reduce(): {max(left)} to {min(left)}", 2, 0.6,
+                           {"16": "-2.6,-0.6", "8": "-2.2,-0.4", "2": "-2.2,-0.4"}, {})}
     below = origin(data, ["A prism of 64 sides, radius 0.1 m, length 0.4 m, against itself 1 to 50 mm apart. Largest eigenvalue of the Hessian over 6000 poses.",
                           "What is not varied: r = 1 cm, R = 10 m, 128 vertices."])
     text = panels(2, height, below, legend_rows=1) + legend([(colour, 7, name) for colour, name, *_ in sweeps.values()], height) + \

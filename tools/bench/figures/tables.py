@@ -50,7 +50,7 @@ def first_page():
             f"- **Robust**: {len(verdicts['rows'])} hard cases with {failures['stpbv_warm']} failures, where FCL fails {failures['fcl_libccd_1e-6']} "
             "([stability](docs/stability.md), `stability`).",
             "- **Exact** to rounding. Every answer has a lower and an upper bound, between which the truth lies, rounding included",
-            "  ([accuracy](docs/accuracy.md), ten million queries, `distance_soak`)."]
+            "  ([stability](docs/stability.md#fuzzing-and-soak), ten million queries, `truth_soak`)."]
 
 
 @table("summary")
