@@ -175,6 +175,9 @@ void addAnswer(py::module_& module) {
       .def_property_readonly(
           "point_velocities", [](const RowAnswer& answer) { return both(answer.pointVelocity); },
           "(2, 3): of the witness points, which slide on their bodies (m/s); 0 without qd")
+      .def_readonly("mesh_distance_most", &RowAnswer::meshDistanceMost,
+                    "upper bound on the distance of the meshes behind the bodies (m); nan without "
+                    "Robot(measure_meshes=True), and where the bodies are not apart")
       .def("__repr__", [](const RowAnswer& answer) {
         return py::str("<RowAnswer: {} m, {}>").format(answer.distance, py::cast(answer.status).attr("name"));
       });

@@ -18,15 +18,16 @@ void addRobot(py::module_& module) {
                       const BodyOptions::Length& r, const std::optional<BodyOptions::Length>& R,
                       const BodyOptions::OfLinks& links, const BodyOptions::Names& flat,
                       const std::string& base, const Folders& packagePath, double influence,
-                      std::optional<double> exactUpTo, double handOver) {
+                      std::optional<double> exactUpTo, double handOver, bool measureMeshes) {
             return std::make_unique<PythonRobot>(urdf, srdf, obstacles, BodyOptions{r, R, links, flat}, base,
-                                                 packagePath, influence, exactUpTo, handOver);
+                                                 packagePath, influence, exactUpTo, handOver, measureMeshes);
           }),
           py::arg("urdf"), py::arg("srdf") = py::none(), py::arg("obstacles") = py::none(), py::kw_only(),
           py::arg("r") = 0.01, py::arg("R") = py::none(), py::arg("links") = BodyOptions::OfLinks{},
           py::arg("flat") = std::vector<std::string>{}, py::arg("base") = "fixed",
           py::arg("package_path") = Folders{}, py::arg("influence") = std::numeric_limits<double>::infinity(),
           py::arg("exact_up_to") = py::none(), py::arg("hand_over") = std::numeric_limits<double>::infinity(),
+          py::arg("measure_meshes") = false,
           "Loads a URDF, and the bodies of another one as obstacles. Pairs that the SRDF disables (without\n"
           "one, adjacent and rigid links) are left out. r, R: of all volumes (m), or \"auto\", by which "
           "they\n"
@@ -36,7 +37,9 @@ void addRobot(py::module_& module) {
           "\"fixed\", \"planar\" or \"floating\". package_path: a folder, or several, for package:// names.\n"
           "influence: farther pairs are constant (m); a row is its distance up to exact_up_to (m), half of\n"
           "influence unless given, and then goes over smoothly to a constant. hand_over: links farther\n"
-          "apart than this (m) are one row, nearer ones a row for each pair of their parts (model_for).")
+          "apart than this (m) are one row, nearer ones a row for each pair of their parts (model_for).\n"
+          "measure_meshes: each RowAnswer bounds the distance of the meshes (mesh_distance_most); loading\n"
+          "takes about a tenth of a second longer for each mesh.")
       .def("model_for", &PythonRobot::modelFor, py::arg("needs"), py::kw_only(),
            py::arg("budgets") = std::vector<double>{}, py::arg("threads") = 1,
            "(a Robot as fine as the needs ask for, indices of the needs that no bodies meet).\n"

@@ -50,7 +50,7 @@ class PythonRobot {
 
   PythonRobot(const Path& urdf, const std::optional<Path>& srdf, const std::optional<Path>& obstacles,
               const BodyOptions& bodies, const std::string& base, const Folders& packagePath,
-              double influence, std::optional<double> exactUpTo, double handOver) {
+              double influence, std::optional<double> exactUpTo, double handOver, bool measureMeshes) {
     const auto scene = std::make_shared<PythonScene>();
     named(srdf, "srdf"), named(obstacles, "obstacles");
     requireLength(influence, "influence"), requireLength(handOver, "hand_over");
@@ -60,6 +60,7 @@ class PythonRobot {
     scene->options.packagePath = scene->aroundOptions.packagePath = packagePath.existing();
     scene->robot = std::make_shared<const RobotModel>(scene->loading.robot(urdf));
     if (srdf) scene->srdf = scene->loading.srdf(*srdf, *scene->robot);
+    scene->measureMeshes = measureMeshes;
     const auto geometry = scene->load(base, obstacles);
     scene_ = scene;
     options_.influence = influence;

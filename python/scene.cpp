@@ -34,6 +34,7 @@ std::shared_ptr<const RobotGeometry> PythonScene::load(const std::string& base,
   if (srdf) loading.warnOfPairs(*robot, bodies, *srdf);
   coverPrimitives(pairs(bodies), bodies, &things);
   loading.warnOfR(*robot, bodies, options);
+  if (measureMeshes) measureExcess(bodies, options.threads), measureExcess(things, options.threads);
   if (around) {
     loading.warnOfR(*around, things, aroundOptions);
     obstacles = obstaclesOf(around, things);  // with their covers
@@ -115,7 +116,10 @@ std::shared_ptr<const RobotGeometry> PythonScene::modelFor(const std::vector<Nee
     const bool same = !(needs[i].pair < next.pair) && !(next.pair < needs[i].pair);
     if (same && needs[i].q == next.q && needs[i].clearance == next.clearance) unmet.push_back(i);
   }
-  return model.geometry;
+  if (!measureMeshes) return model.geometry;
+  RobotGeometry measured = *model.geometry;
+  measureExcess(measured, threads);
+  return std::make_shared<const RobotGeometry>(std::move(measured));
 }
 
 }  // namespace fcl_stpbv

@@ -25,6 +25,7 @@ struct PythonScene {
   std::shared_ptr<const RobotModel> around;  ///< null without obstacles
   std::vector<Obstacle> obstacles;
   bool baseMoves = false;
+  bool measureMeshes = false;  ///< whether the bodies get their Body::volumeExcess
   Loading loading;
 
   /// Loads all files and covers primitives. @return the robot's bodies @throws Error naming the file.

@@ -94,6 +94,7 @@ std::vector<Obstacle> obstaclesOf(std::shared_ptr<const RobotModel> scene, const
     obstacles.emplace_back(body.name, body.geometry, link * body.pose);
     obstacles.back().primitive = body.primitive;
     obstacles.back().full = body.full;
+    obstacles.back().volumeExcess = body.volumeExcess;
   }
   return obstacles;
 }

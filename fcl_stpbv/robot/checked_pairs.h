@@ -44,6 +44,7 @@ class Obstacle {
   std::shared_ptr<const fcl::CollisionGeometryd>
       primitive;                                        ///< the primitive under its smooth cover, else null
   std::shared_ptr<const fcl::CollisionGeometryd> full;  ///< Body::full, if the obstacle is a body of a scene
+  double volumeExcess = 0;  ///< Body::volumeExcess, if the obstacle is a body of a scene (m)
 
  private:
   std::shared_ptr<const fcl::CollisionGeometryd> geometry_;

@@ -107,6 +107,8 @@ void CollisionConstraints::addPair(const CheckedPair& pair) {
   }
   row.far += body.radius + (pair.obstacle ? options_.obstacles[at(pair.other)].radius()
                                           : geometry_->bodies[at(pair.other)].radius);
+  row.excess = body.volumeExcess + (pair.obstacle ? options_.obstacles[at(pair.other)].volumeExcess
+                                                  : geometry_->bodies[at(pair.other)].volumeExcess);
   addTerms(pair, row);
   rows_.push_back(row);
 }
@@ -191,6 +193,8 @@ RowAnswer CollisionConstraints::answer(int row) const {
   } else {
     found = answers_[at(row)];
   }
+  if (answer.status != DistanceStatus::invalid && answer.distance > 0)
+    answer.meshDistanceMost = answer.upper + r.excess;
   if (moving_) {
     answer.normalVelocity = moves_[at(row)].normal;
     answer.pointVelocity = moves_[at(row)].point;

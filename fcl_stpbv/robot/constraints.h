@@ -57,12 +57,16 @@ struct RowRates {
   Eigen::VectorXd drift;
 };
 
-/// An answer with the velocities of its normal and points. They are those at qd after evaluate(q, qd),
-/// otherwise zero.
+/// An answer with the velocities of its normal and points, and a bound on the distance of the meshes behind
+/// the two bodies. The velocities are those at qd after evaluate(q, qd), otherwise zero.
 struct RowAnswer : DistanceAnswer {
   Eigen::Vector3d normalVelocity{0, 0, 0};  ///< (1/s), world axes
   /// Velocities of the witness points, which slide on their bodies (m/s), world axes.
   std::array<Eigen::Vector3d, 2> pointVelocity{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
+  /// Upper bound on the distance of the meshes or primitives behind the two bodies (m): `upper` plus both
+  /// bodies' Body::volumeExcess. `lower` bounds it from below, except for a row of parts, whose meshes may be
+  /// nearer at other parts. NaN without measureExcess(), and for a distance that is not above 0.
+  double meshDistanceMost = std::numeric_limits<double>::quiet_NaN();
 };
 
 /// Distances d(q) and Jacobian J(q): one row per pair of bodies, then one per smooth constraint. Each row's
@@ -189,6 +193,7 @@ class CollisionConstraints {
     int group = -1;             // index of the group of its whole bodies, -1 for none
     bool whole = false;         // whether this is the row of a group's whole bodies
     bool finite = false;        // whether all vertices of both bodies are finite, if they are meshes
+    double excess = 0;          // of both surfaces over their meshes
     int firstCommon = 0, lastCommon = 0;
   };
   struct Witness {

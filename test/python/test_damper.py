@@ -225,3 +225,16 @@ def test_the_bound_on_the_acceleration_is_the_formula_of_the_page():
         for wrong in (-1.0, math.nan):
             with pytest.raises(fcl_stpbv.Error, match=f"^{name}: got {wrong}, expected 0 or more"):
                 bound(smallest_h=1, smallest_g=1, **{name: wrong})
+
+
+def test_answers_bound_the_distance_of_the_meshes_when_asked(robot):
+    measured = fcl_stpbv.Robot(*FILES, measure_meshes=True)
+    q = robot.configuration("half_sitting")
+    assert all(math.isnan(answer.mesh_distance_most) for answer in robot.answers(q))
+    more = np.array([answer.mesh_distance_most - answer.upper for answer in measured.answers(q)])
+    apart = np.array([answer.distance > 0 for answer in measured.answers(q)])
+    assert apart.sum() > 100 and (more[apart] > 0.02).all() and np.isnan(more[~apart]).all()  # r of both bodies at least
+    damper = damper_of(measured)
+    damper.update(q, 0 * q)
+    row = int(np.argmax(apart))
+    assert damper.answer(row).mesh_distance_most == pytest.approx(damper.answer(row).upper + more[row], abs=1e-12)

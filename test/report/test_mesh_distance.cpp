@@ -8,10 +8,13 @@
 #include <functional>
 
 #include "fcl_stpbv/report/mesh_distance.h"
+#include "fcl_stpbv/report/mesh_fit.h"
+#include "fcl_stpbv/robot/constraints.h"
 #include "fcl_stpbv/robot/mesh_file.h"
 #include "fcl_stpbv/volume/tessellate.h"
 #include "test/reference/shapes.h"
 #include "test/reference/volume_files.h"
+#include "test/robot/urdf_texts.h"
 
 using namespace fcl_stpbv;
 using namespace fcl_stpbv::report;
@@ -274,4 +277,74 @@ TEST_CASE("primitives count as they are, solid, and points without triangles as 
   CHECK(pair.upper == Approx(0.08).margin(1.01e-7));
   CHECK(meshDistance(hull, shifted(0.15), box, shifted(0)).upper == Approx(0.05).margin(1.01e-7));
   CHECK(hull.solid() == nullptr);
+}
+
+TEST_CASE("the rows of constraints bound the distance of the meshes, as the report does") {
+  const TemporaryFolder folder;
+  Random random(5);
+  saveMesh(folder / "tyre.obj", tyre(0.1, 0.03));
+  saveMesh(folder / "dented.obj", dented(random));
+  const std::string axis = "<axis xyz=\"1 0.1 0.2\"/>";
+  put(folder / "r.urdf",
+      robot(link("a", "<mesh filename=\"tyre.obj\"/>") + link("b", "<mesh filename=\"dented.obj\"/>") +
+            link("c", "<box size=\"0.1 0.1 0.1\"/>") + joint("j", "prismatic", "a", "b", axis) +
+            joint("k", "prismatic", "b", "c", axis)));
+  const auto model = std::make_shared<const RobotModel>(loadUrdf(folder / "r.urdf"));
+  const auto kinematics = std::make_shared<const Kinematics>(model);
+  GeometryOptions options;
+  options.cacheFolder = "";
+  RobotGeometry bodies = loadGeometry(*model, options);
+  // The box stands in the world too, as a body of a scene and as a plain object of FCL.
+  const std::vector<CheckedPair> pairs{{0, 1}, {0, 2}, {1, 2}, {1, 0, true}, {1, 1, true}};
+  ConstraintOptions rows;
+  rows.obstacles = obstaclesOf(model, bodies);
+  const Obstacle plain("plain", bodies.bodies[2].geometry);
+  rows.obstacles = {rows.obstacles[2], plain};
+  Eigen::VectorXd d(5);
+  const Eigen::Vector2d apart(0.9, 0.9);
+  CollisionConstraints unmeasured(kinematics, std::make_shared<const RobotGeometry>(bodies), pairs, rows);
+  unmeasured.evaluate(apart, d);
+  CHECK(std::isnan(unmeasured.answer(0).meshDistanceMost));
+
+  measureExcess(bodies, 2);
+  rows.obstacles = {obstaclesOf(model, bodies)[2], plain};
+  const auto geometry = std::make_shared<const RobotGeometry>(bodies);
+  CollisionConstraints constraints(kinematics, geometry, pairs, rows);
+  detail::VolumeCache none("");
+  std::vector<ExactBody> exact;
+  std::vector<double> excess;
+  for (const Body& body : bodies.bodies) exact.emplace_back(body);
+  for (const Body& body : bodies.bodies)
+    excess.push_back(meshFit(
+                         body, [&]() -> const ExactBody& { return exact[excess.size()]; }, none)
+                         .volumeExcess);
+  CHECK(excess[0] > 0.03);  // the hull closes the tyre's hole
+  int seen = 0;
+  for (int k = 0; k < 60; ++k) {
+    const Eigen::Vector2d q = k == 0 ? apart : Eigen::Vector2d(random.uniform(-1, 1), random.uniform(-1, 1));
+    constraints.evaluate(q, d);
+    for (int row = 0; row < 5; ++row) {
+      const RowAnswer answer = constraints.answer(row);
+      const CheckedPair& pair = pairs[static_cast<std::size_t>(row)];
+      const auto first = static_cast<std::size_t>(pair.body),
+                 second = pair.obstacle ? 2 : static_cast<std::size_t>(pair.other);
+      INFO("row " << row << ", q " << q.transpose() << ", d " << answer.distance);
+      if (!(answer.distance > 0)) {
+        CHECK(std::isnan(answer.meshDistanceMost));
+        continue;
+      }
+      CHECK(answer.meshDistanceMost == answer.upper + (excess[first] + excess[second]));
+      const auto pose = [&](std::size_t body) {
+        return constraints.state().link[static_cast<std::size_t>(bodies.bodies[body].link)] *
+               bodies.bodies[body].pose;
+      };
+      const Eigen::Isometry3d there =
+          pair.obstacle ? rows.obstacles[static_cast<std::size_t>(pair.other)].pose() : pose(second);
+      const MeshDistance truth = meshDistance(exact[first], pose(first), exact[second], there);
+      CHECK(answer.lower <= truth.upper + 1e-12);
+      CHECK(truth.lower <= answer.meshDistanceMost + 1e-12);
+      ++seen;
+    }
+  }
+  CHECK(seen > 100);
 }
