@@ -88,15 +88,15 @@ void measureExcess(Report& report, const TriangleMesh& mesh) {
 
 }  // namespace
 
-// Reads the input once, because a pipe cannot be read twice. Volumes and polyhedra are texts. A mesh is left
-// to the reader of meshes, which needs a file.
+// A pipe is read once, because it cannot be read twice. A mesh in a file is left to the reader of meshes,
+// which also knows the file's name and what is beside it.
 Content readInput(const std::string& path, double factor) {
   const Eigen::Vector3d scale = Eigen::Vector3d::Constant(factor);
   const std::string extension = lowerExtension(path);
   if (extension == ".stpbv") return {loadStpBv(path), {}};
   std::error_code ignored;
-  const bool isFile = std::filesystem::is_regular_file(path, ignored);
-  if (isFile && extension != ".txt" && extension != ".otp" && !extension.empty()) {
+  const bool isFile = path != "-" && std::filesystem::is_regular_file(path, ignored);
+  if (isFile && extension != ".txt" && !extension.empty()) {
     try {
       return {nullptr, loadMesh(path, scale)};
     } catch (const Error&) {
@@ -106,13 +106,8 @@ Content readInput(const std::string& path, double factor) {
   std::istringstream stream(readText(path));
   const std::string text = stream.str();
   if (looksLikeStpBv(text)) return {loadStpBv(stream, path), {}};
-  const bool points = looksLikeQhull(text);
-  if (!points && looksLikeSch(text)) return {loadSch(stream, path), {}};
-  if (isFile) return {nullptr, loadMesh(path, scale)};
-  if (!points) throw Error(path + ": holds neither a volume nor points; a mesh must be a file");
-  Content content{nullptr, {parseQhullPoints(text, path), {}}};
-  for (Eigen::Vector3d& point : content.mesh.vertices) point = point.cwiseProduct(scale);
-  return content;
+  if (!looksLikeQhull(text) && looksLikeSch(text)) return {loadSch(stream, path), {}};
+  return {nullptr, isFile ? loadMesh(path, scale) : parseMesh(text, path, scale)};
 }
 
 StpBvOptions radiiFor(const Points& points, const ConversionOptions& options) {

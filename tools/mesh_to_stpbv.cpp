@@ -35,7 +35,8 @@ constexpr const char* kDescription =
 
 constexpr const char* kFooter =
     R"(Inputs: STL, OBJ, DAE, PLY, glTF/GLB, OFF and what else assimp reads; polyhedra and point files of qhull's
-(*-ch.txt, *.otp); volumes to change the format of (.stpbv, sch-core's text). Lengths are in metres.
+(*-ch.txt, *.otp, *.qc); three coordinates a line (*.xyz, *.pts); volumes to change the format of (.stpbv,
+sch-core's text). Lengths are in metres.
 
 Examples:
   mesh_to_stpbv link.stl -o link.stpbv
@@ -51,6 +52,7 @@ Examples:
   mesh_to_stpbv link.stpbv --format sch -o link.txt
 
 - as INPUT or OUT is standard input or output; where the volume goes to standard output the report goes to standard error.
+An input from a pipe is recognised by its content.
 
 Exit status: 0 all done; 1 some input failed, the others are written; 2 the command line is wrong and nothing is written,
 or the report cannot be written.)";

@@ -50,7 +50,7 @@ PartsReport convertToParts(const std::string& input, const std::string& output,
     throw Error(input + ": is an STP-BV already, and convex; give the mesh it was made from, or leave out " +
                 "--parts and --excess");
   if (content.mesh.triangles.empty())
-    throw Error(input + ": has no triangles, which parts are made of; give a mesh, which must be a file");
+    throw Error(input + ": has no triangles, which parts are made of; give a mesh");
   const auto start = std::chrono::steady_clock::now();
   detail::within(input, [&] {
     const StpBvOptions radii = radiiFor(content.mesh.vertices, options);  // for the whole mesh, as for a link

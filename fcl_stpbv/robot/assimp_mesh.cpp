@@ -4,6 +4,7 @@
 // 3. gather all meshes with the transforms of their nodes.
 #include "fcl_stpbv/robot/assimp_mesh.h"
 
+#include <assimp/MemoryIOWrapper.h>
 #include <assimp/config.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
@@ -27,7 +28,7 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr const char* kReadable =
-    "STL, OBJ, DAE, PLY, glTF, GLB, OFF, or a polyhedron of qhull's (*-ch.txt, *.otp)";
+    "STL, OBJ, DAE, PLY, glTF, GLB, OFF, or a cloud of points (*-ch.txt, *.otp, *.qc, *.xyz, *.pts)";
 
 Eigen::AlignedBox3d boxAround(const std::vector<Vector3d>& points) {
   Eigen::AlignedBox3d box;
@@ -160,9 +161,15 @@ double outlinedArea(const aiScene& scene) {
   return sum;
 }
 
-// `far` receives the largest number within the nodes' transforms, if the format's check computes it (m).
-const aiScene& read(Assimp::Importer& importer, ReadableFiles& files, const std::string& path, double& far) {
-  const std::string text = readText(path), expected = expectedFormat(text, path);
+// `content` is null if the mesh is the file `path`. `far` receives the largest number within the nodes'
+// transforms, if the format's check computes it (m).
+const aiScene& read(Assimp::Importer& importer, ReadableFiles& files, const std::string& path,
+                    const std::string* content, double& far) {
+  const std::string own = content ? "" : readText(path), &text = content ? *content : own;
+  // assimp's name for what is in memory, with the ending of its format
+  const std::string ending = content ? formatByContent(text) : "",
+                    alias = AI_MEMORYIO_MAGIC_FILENAME + ending;
+  const std::string expected = expectedFormat(text, content ? alias : path);
   const auto check = [&](const std::string& format) {
     far = checkMeshFormat(text, format, path, [&files](const std::string& part) { return files.part(part); });
   };
@@ -170,7 +177,9 @@ const aiScene& read(Assimp::Importer& importer, ReadableFiles& files, const std:
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
   // Without this setting, assimp would draw the nodes of a file without meshes as a body.
   importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
-  const aiScene* scene = importer.ReadFile(path, 0);
+  const char* const hint = ending.empty() ? "" : ending.c_str() + 1;  // without its dot
+  const aiScene* scene =
+      content ? importer.ReadFileFromMemory(text.data(), text.size(), 0, hint) : importer.ReadFile(path, 0);
   if (scene != nullptr) {
     if (const std::string format = formatOf(*scene, importer); format != expected) check(format);
     checkFaces(*scene, path);
@@ -185,6 +194,8 @@ const aiScene& read(Assimp::Importer& importer, ReadableFiles& files, const std:
   if (scene == nullptr || scene->mRootNode == nullptr) {
     constexpr std::size_t kLongest = 200;  // characters; assimp may quote the file up to its end
     std::string why = importer.GetErrorString();
+    if (const std::size_t at = why.find(alias); content && at != std::string::npos)
+      why.replace(at, alias.size() + (ending.empty() ? 1 : 0), path);  // with the dot for an ending
     if (why.size() > kLongest) why = why.substr(0, kLongest) + " ...";
     throw Error(path + ": cannot be read as a mesh (" + why + "); give a whole file of " + kReadable);
   }
@@ -199,12 +210,14 @@ void requireSize(const std::vector<Vector3d>& points, bool several, const std::s
     throw Error(path + ": is smaller than 1e-9 m along each axis; give it the right unit or scale");
 }
 
-TriangleMesh readByAssimp(const std::string& path, const Vector3d& scale, ChildLimits& limits) {
+TriangleMesh readByAssimp(const std::string& path, const std::string* content, const Vector3d& scale,
+                          ChildLimits& limits) {
   Assimp::Importer importer;
-  auto* const files = new ReadableFiles(path, limits);
-  importer.SetIOHandler(files);  // the importer deletes `files`
+  if (content) limits.allow(content->size());
+  auto* const files = new ReadableFiles(content ? "" : path, limits);  // a content refers to no files
+  importer.SetIOHandler(files);                                        // the importer deletes `files`
   double far = 0;
-  const aiScene& scene = read(importer, *files, path, far);
+  const aiScene& scene = read(importer, *files, path, content, far);
   Gatherer gatherer(path, scale);
   struct Open {
     const aiNode* node;

@@ -1,12 +1,11 @@
-// Reads a mesh file as vertices and triangles. qhull's files are read here. Other files are read by assimp in
-// a child process with limits (child_process.h), which sends the mesh back as bytes.
+// Reads a mesh file as vertices and triangles. Clouds of points are read here. Other files are read by assimp
+// in a child process with limits (child_process.h), which sends the mesh back as bytes.
 #include "fcl_stpbv/robot/mesh_file.h"
 
 #include <algorithm>
 #include <array>
 #include <cstring>
 #include <filesystem>
-#include <optional>
 #include <string_view>
 
 #include "fcl_stpbv/error.h"
@@ -15,6 +14,8 @@
 #include "fcl_stpbv/robot/assimp_mesh.h"
 #include "fcl_stpbv/robot/child_process.h"
 #include "fcl_stpbv/robot/file_ending.h"
+#include "fcl_stpbv/robot/point_lines.h"
+#include "fcl_stpbv/words.h"
 
 namespace fcl_stpbv {
 namespace {
@@ -22,11 +23,15 @@ namespace {
 using namespace detail;
 using Eigen::Vector3d;
 
-void checkReadable(const std::string& path, const Vector3d& scale) {
+void checkScale(const std::string& path, const Vector3d& scale) {
   if (!scale.allFinite() || (scale.array() == 0).any()) {
     throw Error(path +
                 ": a scale of 0 or one that is not finite leaves no body; give a finite number other than 0");
   }
+}
+
+void checkReadable(const std::string& path, const Vector3d& scale) {
+  checkScale(path, scale);
   if (path.empty()) throw Error("the name of a file to read is empty; give one");
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored)) throw Error(path + ": is a folder, expected a file");
@@ -35,15 +40,23 @@ void checkReadable(const std::string& path, const Vector3d& scale) {
     throw Error(path + ": is a pipe or a device, expected a file");
 }
 
-// The text of a qhull file, or no value if the file is a mesh for assimp. Such files often have names that do
-// not tell the format, so a name without a known ending is decided by the file's content.
-std::optional<std::string> qhullText(const std::string& path) {
-  const std::string extension = lowerExtension(path);
-  const bool named = extension == ".txt" || extension == ".otp";
-  if (!named && !extension.empty()) return std::nullopt;
-  std::string text = readText(path);
-  if (!named && !looksLikeQhull(text)) return std::nullopt;
-  return text;
+// The endings of texts with one point a line, and of qhull's.
+constexpr Words kLines{".xyz", ".pts"};
+constexpr Words kQhull{".txt", ".otp", ".qc", ".cloud"};
+
+bool isCloud(std::string_view text) { return looksLikeQhull(text) || looksLikePointLines(text); }
+
+// The points of a cloud; `ending` is the name's.
+TriangleMesh cloudOf(std::string_view text, const std::string& ending, const std::string& path,
+                     const Vector3d& scale) {
+  const bool lines = holds(kLines, ending) || (!looksLikeQhull(text) && looksLikePointLines(text));
+  TriangleMesh mesh;
+  mesh.vertices = lines ? parsePointLines(text, path) : parseQhullPoints(text, path);
+  const bool several = std::any_of(mesh.vertices.begin(), mesh.vertices.end(),
+                                   [&](const Vector3d& p) { return p != mesh.vertices[0]; });
+  for (Vector3d& point : mesh.vertices) point = point.cwiseProduct(scale);
+  requireSize(mesh.vertices, several, path);
+  return mesh;
 }
 
 template <class T>
@@ -69,21 +82,11 @@ std::vector<T> take(std::string_view& bytes, const std::string& path) {
   return items;
 }
 
-}  // namespace
-
-TriangleMesh loadMesh(const std::string& path, const Vector3d& scale) {
-  checkReadable(path, scale);
+// `content` is null if assimp shall read the file `path` itself.
+TriangleMesh byAssimp(const std::string& path, const std::string* content, const Vector3d& scale) {
   TriangleMesh mesh;
-  if (const std::optional<std::string> text = qhullText(path)) {
-    mesh.vertices = parseQhullPoints(*text, path);
-    const bool several = std::any_of(mesh.vertices.begin(), mesh.vertices.end(),
-                                     [&](const Vector3d& p) { return p != mesh.vertices[0]; });
-    for (Vector3d& point : mesh.vertices) point = point.cwiseProduct(scale);
-    requireSize(mesh.vertices, several, path);
-    return mesh;
-  }
   const std::string bytes = inChildProcess(path, [&](ChildLimits& limits) {
-    const TriangleMesh read = readByAssimp(path, scale, limits);
+    const TriangleMesh read = readByAssimp(path, content, scale, limits);
     std::string all;
     append(all, read.vertices);
     append(all, read.triangles);
@@ -97,6 +100,22 @@ TriangleMesh loadMesh(const std::string& path, const Vector3d& scale) {
     if (!std::all_of(t.begin(), t.end(), isCorner))
       throw Error(path + ": its reader fell over; the file is damaged, export it again");
   return mesh;
+}
+
+}  // namespace
+
+TriangleMesh loadMesh(const std::string& path, const Vector3d& scale) {
+  checkReadable(path, scale);
+  const std::string ending = lowerExtension(path);
+  const bool named = holds(kQhull, ending) || holds(kLines, ending);
+  if (!named && !ending.empty()) return byAssimp(path, nullptr, scale);
+  const std::string text = readText(path);
+  return named || isCloud(text) ? cloudOf(text, ending, path, scale) : byAssimp(path, &text, scale);
+}
+
+TriangleMesh parseMesh(const std::string& content, const std::string& name, const Vector3d& scale) {
+  checkScale(name, scale);
+  return isCloud(content) ? cloudOf(content, "", name, scale) : byAssimp(name, &content, scale);
 }
 
 std::vector<Vector3d> loadPoints(const std::string& path, const Vector3d& scale) {

@@ -19,10 +19,18 @@ namespace fcl_stpbv {
 /// metres. 3MF, AMF, DXF, FBX and OpenGEX state a unit that cannot be read, so they are an error; so is X3D
 /// if it states a unit. assimp stores single precision: a coordinate of 1 m is accurate to 0.06 um.
 ///
-/// A qhull polyhedron or point file (`*-ch.txt`, `*.otp`, recognised by its content) gives its points without
-/// triangles, in double precision and without merging.
+/// A cloud gives its points without triangles, in double precision and without merging. It is a polyhedron or
+/// point file of qhull (`*-ch.txt`, `.otp`, `.qc`, `.cloud`), or a text with three coordinates a line
+/// (`.xyz`,
+/// `.pts`). Under a name without an ending it is recognised by its content.
 /// @throws Error naming the file and what would work.
 TriangleMesh loadMesh(const std::string& path, const Eigen::Vector3d& scale = {1, 1, 1});
+
+/// loadMesh() of a file's content; `name` stands for it in messages. The format is recognised by the content
+/// alone. Other files that the content refers to, such as the buffers of a glTF, are not read.
+/// @throws Error as loadMesh().
+TriangleMesh parseMesh(const std::string& content, const std::string& name,
+                       const Eigen::Vector3d& scale = {1, 1, 1});
 
 /// Reads only the points of such a file (m).
 /// @throws Error naming the file and what would work.

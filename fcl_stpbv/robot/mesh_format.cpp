@@ -8,10 +8,13 @@
 
 #include <algorithm>
 #include <assimp/Importer.hpp>
+#include <cstdint>
+#include <cstring>
 
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/robot/file_ending.h"
 #include "fcl_stpbv/robot/gltf_check.h"
+#include "fcl_stpbv/robot/mesh_lines.h"
 #include "fcl_stpbv/robot/ply_check.h"
 #include "fcl_stpbv/robot/text_mesh_check.h"
 #include "fcl_stpbv/words.h"
@@ -31,7 +34,43 @@ bool looksLikeGltf(std::string_view text) {
   return text.substr(0, 4) == "glTF" || text.substr(start, 1) == "{";
 }
 
+// A header of 80 bytes, the number of triangles, and 50 bytes for each.
+bool isBinaryStl(std::string_view text) {
+  constexpr std::size_t kHeader = 84, kTriangle = 50;
+  std::uint32_t count = 0;
+  if (text.size() < kHeader) return false;
+  std::memcpy(&count, text.data() + kHeader - sizeof count, sizeof count);
+  return text.size() == kHeader + kTriangle * std::size_t(count);
+}
+
+// The first word of the first line that is no comment.
+std::string_view firstWord(std::string_view text) {
+  const std::string name;
+  MeshLines lines(text, name);
+  while (lines.next()) {
+    std::string_view line = lines.text();
+    const std::string_view word = takeWord(line);
+    if (!word.empty() && word[0] != '#') return word;
+  }
+  return "";
+}
+
 }  // namespace
+
+std::string formatByContent(std::string_view text) {
+  constexpr Words kObj{"v", "vn", "vt", "vp", "f", "l", "p", "g", "o", "s", "mtllib", "usemtl"};
+  constexpr Words kOff{"OFF", "COFF", "NOFF", "STOFF", "CNOFF", "STCNOFF"};
+  constexpr std::size_t kHead = 4096;  // comments may come before the root of an XML text
+  if (text.substr(0, 3) == "ply") return ".ply";
+  if (text.substr(0, 4) == "glTF") return ".glb";
+  if (isBinaryStl(text)) return ".stl";
+  if (text.substr(0, kHead).find("<COLLADA") != std::string_view::npos) return ".dae";
+  const std::string_view word = firstWord(text);
+  if (word == "solid") return ".stl";
+  if (holds(kOff, word)) return ".off";
+  if (holds(kObj, word)) return ".obj";
+  return word.substr(0, 1) == "{" ? ".gltf" : "";
+}
 
 std::string expectedFormat(std::string_view text, const std::string& path) {
   const std::string extension = lowerExtension(path);

@@ -17,6 +17,10 @@ namespace fcl_stpbv::detail {
 /// first bytes decide that; "" otherwise. A check before assimp gives better error messages.
 std::string expectedFormat(std::string_view text, const std::string& path);
 
+/// The extension of a text's format by its content alone, for a mesh without a name. assimp itself looks at
+/// the content of few formats. "" for a format that only assimp may know.
+std::string formatByContent(std::string_view text);
+
 /// The extension of the format in which assimp has read a file. The file's name may say another format.
 std::string formatOf(const aiScene& scene, const Assimp::Importer& importer);
 

@@ -6,8 +6,10 @@ usage: test_mesh_to_stpbv.py PROGRAM SOURCE_FOLDER
 import json
 import math
 import os
+import pathlib
 import re
 import resource
+import shutil
 import signal
 import subprocess
 import sys
@@ -17,7 +19,7 @@ import unittest
 
 from terminal import shown_on_terminal
 
-PROGRAM = SHARED = ""
+PROGRAM = SOURCE = SHARED = ""
 KEYS = ["input", "points", "vertices", "edges", "faces", "r", "R", "over_cover_max", "over_cover_mean",
         "excess_max", "excess_max_open", "volume", "build_seconds", "verified"]
 CUBE = [(x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 1)]
@@ -420,14 +422,47 @@ class MeshToStpbv(unittest.TestCase):
         self.refused("cube.txt", "other.txt", "-o", "-", says=["-o -", "one volume"])
         self.refused("cube.txt", "--parts", "2", "-o", "-", says=["-o -", "one volume"])
 
-    def test_a_mesh_from_a_pipe_and_a_device_are_refused(self):
-        for command in ('echo solid | "$T" - -o a.stpbv', '"$T" /dev/zero -o a.stpbv', '"$T" - -o a.stpbv < /dev/zero',
-                        'ln -s /dev/zero z.stpbv; "$T" z.stpbv -o a.stpbv', 'ln -s /dev/zero z.stl; "$T" z.stl -o a.stpbv',
-                        '"$T" - -o a.stpbv --parts 2 < cube.txt'):
+    def test_a_mesh_from_a_pipe_gives_the_volume_of_its_file(self):
+        self.two_pieces("two.obj")
+        shutil.copy(pathlib.Path(SOURCE, "data/hrp2_style/meshes/HEAD_LINK1.dae"), self.at("head.dae"))
+        write(self.at("cube.xyz"), "# a cube\n" + "".join("%r %r %r\n" % p for p in CUBE))
+        self.run_tool("cube.txt", "-o", "cube.stpbv", "--preview", "cube.glb", "-q")
+        for name in ("two.obj", "head.dae", "cube.glb", "cube.xyz"):
+            self.run_tool(name, "-o", name + ".stpbv", "-q", "--scale", "0.5")
+            volume = read(self.at(name + ".stpbv")).decode()
+            for command in ('cat %s | "$T" - -o - --scale 0.5', 'cat %s | "$T" /dev/stdin -o - --scale 0.5', '"$T" - -o - --scale 0.5 < %s',
+                            '"$T" /dev/stdin -o - --scale 0.5 < %s', '"$T" <(cat %s) -o - --scale 0.5'):
+                with self.subTest(command=command % name):
+                    done = self.shell(command % name)
+                    self.assertEqual((done.returncode, done.stdout), (0, volume), done.stderr)
+        self.run_tool("two.obj", "-o", "file.stpbv", "--parts", "2", "-q")
+        self.run_tool("-", "-o", "pipe.stpbv", "--parts", "2", "-q", stdin="two.obj")
+        for part in "01":
+            self.assertEqual(read(self.at(f"file_{part}.stpbv")), read(self.at(f"pipe_{part}.stpbv")))
+
+    def test_a_cloud_is_read_by_its_name_and_a_wrong_line_is_named(self):
+        self.run_tool("cube.txt", "-o", "cube.stpbv", "-q")
+        shutil.copy(self.at("cube.txt"), self.at("cube.qc"))
+        for ending in ("xyz", "pts"):
+            write(self.at("cube." + ending), "".join("%r\t%r %r # m\n" % p for p in CUBE))
+        for ending in ("qc", "xyz", "pts"):
+            self.run_tool("cube." + ending, "-o", ending + ".stpbv", "-q")
+            self.assertEqual(read(self.at(ending + ".stpbv")), read(self.at("cube.stpbv")))
+        write(self.at("water.xyz"), "3\nwater\nO 0 0 0\nH 1 0 0\nH 0 1 0\n")
+        self.refused("water.xyz", "-o", "a.stpbv", says=["water.xyz:1: got '3', expected three coordinates", "chemistry"], code=1)
+        write(self.at("odd.pts"), "0 0 0\n1 0 0\n0 1\n")
+        self.refused("odd.pts", "-o", "a.stpbv", says=["odd.pts:3: got 2 words, expected three coordinates"], code=1)
+
+    def test_a_broken_mesh_from_a_pipe_and_a_device_are_refused(self):
+        for command, says in (('echo solid | "$T" - -o a.stpbv', "-:1: .*endsolid"), ('"$T" /dev/zero -o a.stpbv', "device"),
+                              ('echo nothing | "$T" - -o a.stpbv', "-: cannot be read as a mesh"), ('"$T" - -o a.stpbv < /dev/zero', "device"),
+                              ('ln -s /dev/zero z.stpbv; "$T" z.stpbv -o a.stpbv', "device"),
+                              ('ln -s /dev/zero z.stl; "$T" z.stl -o a.stpbv', "expected a file"),
+                              ('"$T" - -o a.stpbv --parts 2 < cube.txt', "has no triangles")):
             with self.subTest(command=command):
                 done = self.shell(command)
                 self.assertEqual((done.returncode, done.stdout), (1, ""), done)
-                self.assertRegex(done.stderr, "device|must be a file|expected a file")
+                self.assertRegex(done.stderr, says)
         self.assertFalse(os.path.exists(self.at("a.stpbv")))
 
     def test_output_that_cannot_be_written_is_a_failure(self):
@@ -512,5 +547,6 @@ class MeshToStpbv(unittest.TestCase):
 
 if __name__ == "__main__":
     PROGRAM = os.path.abspath(sys.argv[1])
-    SHARED = os.path.join(os.path.dirname(os.path.abspath(sys.argv[2])), "shared")
+    SOURCE = os.path.abspath(sys.argv[2])
+    SHARED = os.path.join(os.path.dirname(SOURCE), "shared")
     unittest.main(argv=sys.argv[:1] + sys.argv[3:])
