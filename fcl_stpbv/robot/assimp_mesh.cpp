@@ -166,6 +166,7 @@ double outlinedArea(const aiScene& scene) {
 const aiScene& read(Assimp::Importer& importer, ReadableFiles& files, const std::string& path,
                     const std::string* content, double& far) {
   const std::string own = content ? "" : readText(path), &text = content ? *content : own;
+  if (content && text.empty()) throw Error(path + ": is empty; give a whole file of " + kReadable);
   // assimp's name for what is in memory, with the ending of its format
   const std::string ending = content ? formatByContent(text) : "",
                     alias = AI_MEMORYIO_MAGIC_FILENAME + ending;
