@@ -483,6 +483,24 @@ def hook(tmp_path):
     return tmp_path
 
 
+def test_the_meshes_of_whole_bodies_of_parts_and_of_obstacles_are_bounded(hook):
+    files = hook / "hook.urdf", hook / "hook.srdf", hook / "post.urdf"
+    hulls = fcl_stpbv.Robot(*files, r=0.001, measure_meshes=True)
+    q, apart = np.zeros(1), np.ones(1)
+    at = {name: answer.mesh_distance_most for name, answer in zip(hulls.rows, hulls.answers(q))}
+    assert math.isnan(at["l - block"])  # the block is inside the hull of the L
+    assert 0.3 <= at["block - post"] < 0.31  # the true distance, and the covers' excess
+    # At q = 1 the block is 0.75 m from the L's lower arm along x and 0.05 m above it. Its hull exceeds the L by about 0.14 m.
+    truth = math.hypot(0.75, 0.05)
+    answer = hulls.answers(apart)[hulls.rows.index("l - block")]
+    assert answer.lower <= truth <= answer.mesh_distance_most < truth + 0.2
+    fine, unmet = hulls.model_for([("l", "block", q, 0.04)])
+    assert unmet == []
+    parts = [(answer.lower, answer.mesh_distance_most) for answer, row in zip(fine.answers(q), fine.rows) if "post" not in row]
+    # A part's face where the L was cut is up to 0.05 m from the L's triangles.
+    assert len(parts) == 2 and all(lower <= 0.05 <= most < 0.11 for lower, most in parts)
+
+
 def test_a_robot_is_as_fine_as_its_needs_ask_for(hook):
     files = hook / "hook.urdf", hook / "hook.srdf", hook / "post.urdf"
     hulls = fcl_stpbv.Robot(*files, r=0.001)
