@@ -16,6 +16,7 @@
 #include "fcl_stpbv/robot/collision_checker.h"
 #include "fcl_stpbv/robot/constraints.h"
 #include "fcl_stpbv/robot/motion_check.h"
+#include "test/reference/random_walk.h"
 #include "test/reference/robots.h"
 
 using namespace fcl_stpbv;
@@ -247,21 +248,14 @@ TEST_CASE("small steps search for few pairs, random configurations for those nea
   const Problem p = problem(robots()[0]);
   const auto walk = [&](double step) {
     CollisionChecker checker(p.kinematics, p.geometry, p.pairs);
-    Random random(1);
-    VectorXd q = p.kinematics->neutral();
-    for (int i = 0; i < 2000; ++i) {
-      for (Eigen::Index k = 0; k < q.size(); ++k) {
-        const double low = p.kinematics->lower()[k], high = p.kinematics->upper()[k];
-        q[k] = std::min(std::max(q[k] + step * (high - low) * random.uniform(-1, 1), low), high);
-      }
-      checker.allHits(q);
-    }
+    const Eigen::MatrixXd q = randomWalk(*p.kinematics, step, 2000);
+    for (Eigen::Index i = 0; i < q.cols(); ++i) checker.allHits(q.col(i));
     return checker.work();
   };
   const auto per = [](long count, const CheckerWork& work) {
     return static_cast<double>(count) / static_cast<double>(work.configurations);
   };
-  const CheckerWork small = walk(1e-3), large = walk(0.5);
+  const CheckerWork small = walk(kSmallStep), large = walk(kRandomStep);
   CAPTURE(per(small.near, small), per(small.searched, small), per(large.near, large),
           per(large.searched, large));
   // Measured when this was written, plus a tenth.

@@ -8,7 +8,7 @@
 #include <functional>
 
 #include "fcl_stpbv/robot/constraints.h"
-#include "test/reference/shapes.h"
+#include "test/reference/random_walk.h"
 #include "tools/bench/measurement.h"
 #include "tools/program.h"
 
@@ -25,19 +25,14 @@ struct Way {
   Evaluate evaluate;
 };
 
-// Times (us) of a walk. Each configuration differs from the last one by a step, a share of the joints'
-// ranges.
+// Times (us) of the configurations of a walk, sorted.
 std::vector<double> times(const Kinematics& kinematics, const Way& way, int count) {
-  const double step = way.steps[0] == 's' ? 1e-3 : 0.5;
-  test::Random random(1);
-  Eigen::VectorXd q = kinematics.neutral();
+  const Eigen::MatrixXd walk =
+      test::randomWalk(kinematics, way.steps[0] == 's' ? test::kSmallStep : test::kRandomStep, count);
   std::vector<double> result;
-  for (int i = 0; i < count; ++i) {
-    for (int k = 0; k < q.size(); ++k) {
-      const double range = kinematics.upper()[k] - kinematics.lower()[k];
-      q[k] = std::clamp(q[k] + step * range * random.uniform(-1, 1), kinematics.lower()[k],
-                        kinematics.upper()[k]);
-    }
+  Eigen::VectorXd q;
+  for (Eigen::Index i = 0; i < walk.cols(); ++i) {
+    q = walk.col(i);
     const double start = benchmark::threadTime();
     way.evaluate(q);
     result.push_back(1e-3 * (benchmark::threadTime() - start));

@@ -8,7 +8,7 @@
 
 #include "fcl_stpbv/robot/batch.h"
 #include "fcl_stpbv/robot/checked_pairs.h"
-#include "test/reference/shapes.h"
+#include "test/reference/random_walk.h"
 #include "tools/bench/measurement.h"
 #include "tools/bench/robot/peer.h"
 #include "tools/program.h"
@@ -26,21 +26,6 @@ struct Arguments {
   int configurations = 2000, turns = 5;
   bool json = false;
 };
-
-/// One configuration per column. Each differs from the one before by a step, a share of the joints' ranges.
-MatrixXd walk(const Kinematics& kinematics, double step, int count) {
-  test::Random random(1);
-  MatrixXd all(kinematics.size(), count);
-  VectorXd q = kinematics.neutral();
-  for (int i = 0; i < count; ++i) {
-    for (Eigen::Index k = 0; k < q.size(); ++k) {
-      const double low = std::max(kinematics.lower()[k], -M_PI), high = std::min(kinematics.upper()[k], M_PI);
-      q[k] = std::min(std::max(q[k] + step * (high - low) * random.uniform(-1, 1), low), high);
-    }
-    all.col(i) = q;
-  }
-  return all;
-}
 
 /// One way to answer all configurations of a walk. The first way of each question is this library's.
 struct Way {
@@ -139,7 +124,8 @@ class Bench {
   }
 
   void measureSteps(bool small, Measurement& result) {
-    const MatrixXd q = walk(*robot_.kinematics, small ? 1e-3 : 0.5, arguments_.configurations);
+    const MatrixXd q = test::randomWalk(*robot_.kinematics, small ? test::kSmallStep : test::kRandomStep,
+                                        arguments_.configurations);
     std::vector<Way> all = ways();
     for (Way& way : batches(small ? Sequence::path : Sequence::independent)) all.push_back(std::move(way));
     std::vector<std::vector<double>> us(all.size());
