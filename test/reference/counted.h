@@ -1,4 +1,5 @@
-// Instructions of a part of a program, counted if it runs under callgrind as instructions_per_query starts it.
+// Instructions of a part of a program, counted if it runs under callgrind as instructions_per_query starts
+// it.
 #pragma once
 
 #if __has_include(<valgrind/callgrind.h>)

@@ -4,6 +4,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <ctime>
@@ -54,8 +55,8 @@ double threadTime() {
   return 1e9 * static_cast<double>(t.tv_sec) + static_cast<double>(t.tv_nsec);
 }
 
-std::vector<double> mediansInTurns(int passes, std::size_t count,
-                                   const std::vector<std::function<void(std::size_t)>>& ways) {
+std::vector<std::vector<double>> passesInTurns(int passes, std::size_t count,
+                                               const std::vector<std::function<void(std::size_t)>>& ways) {
   std::vector<std::vector<double>> times(ways.size());
   for (int pass = 0; pass < passes; ++pass)
     for (std::size_t k = 0; k < ways.size(); ++k) {
@@ -63,8 +64,13 @@ std::vector<double> mediansInTurns(int passes, std::size_t count,
       for (std::size_t i = 0; i < count; ++i) ways[k](i);
       times[k].push_back((threadTime() - start) / static_cast<double>(count));
     }
+  return times;
+}
+
+std::vector<double> mediansInTurns(int passes, std::size_t count,
+                                   const std::vector<std::function<void(std::size_t)>>& ways) {
   std::vector<double> middle;
-  for (const std::vector<double>& each : times) middle.push_back(median(each));
+  for (const std::vector<double>& each : passesInTurns(passes, count, ways)) middle.push_back(median(each));
   return middle;
 }
 
@@ -76,6 +82,18 @@ double percentile(std::vector<double>& values, double p) {
 }
 
 double median(std::vector<double> values) { return percentile(values, 0.5); }
+
+nlohmann::ordered_json ratios(const std::vector<double>& times, const std::vector<double>& own,
+                              double& spread) {
+  std::vector<double> ratio;
+  for (std::size_t turn = 0; turn < times.size(); ++turn) ratio.push_back(times[turn] / own[turn]);
+  const double middle = median(ratio);
+  const auto [least, most] = std::minmax_element(ratio.begin(), ratio.end());
+  spread = std::max(spread, (*most - *least) / (2 * middle));
+  return {{"ratio", significant(middle, 3)},
+          {"ratio_least", significant(*least, 3)},
+          {"ratio_most", significant(*most, 3)}};
+}
 
 double significant(double value, int digits) {
   return std::isfinite(value) ? std::stod(formatted("%.*g", digits, value)) : value;

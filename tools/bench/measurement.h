@@ -25,14 +25,22 @@ std::string commandLine(int argc, char** argv);
 /// Processor time of this thread (ns), without the time in which other processes had the core.
 double threadTime();
 
-/// Medians of `passes` passes over `count` queries of each way (ns per query, the thread's processor time).
-/// The ways take turns, so that a temporary slowdown of the machine affects all of them.
+/// The times of `passes` passes over `count` queries, for each way (ns per query, the thread's processor
+/// time). The ways take turns, so that a temporary slowdown of the machine affects all of them.
+std::vector<std::vector<double>> passesInTurns(int passes, std::size_t count,
+                                               const std::vector<std::function<void(std::size_t)>>& ways);
+/// Their medians.
 std::vector<double> mediansInTurns(int passes, std::size_t count,
                                    const std::vector<std::function<void(std::size_t)>>& ways);
 
 /// The value below which a share `p` of the values lies. Reorders the values. NaN if there are none.
 double percentile(std::vector<double>& values, double p);
 double median(std::vector<double> values);
+
+/// Times as multiples of `own`, turn by turn: the entries "ratio" (their median), "ratio_least" and
+/// "ratio_most". Enlarges `spread` to half of their relative range.
+nlohmann::ordered_json ratios(const std::vector<double>& times, const std::vector<double>& own,
+                              double& spread);
 
 /// Rounds a measured value to this number of significant digits for a file.
 double significant(double value, int digits);

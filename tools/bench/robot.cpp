@@ -142,19 +142,13 @@ class Bench {
     for (std::size_t k = 0; k < all.size(); ++k) {
       std::size_t own = 0;  // the way that it is compared with
       while (all[own].what != all[k].what) ++own;
-      std::vector<double> ratio;
-      for (std::size_t turn = 0; turn < us[k].size(); ++turn) ratio.push_back(us[k][turn] / us[own][turn]);
-      const double middle = median(ratio);
-      const auto [least, most] = std::minmax_element(ratio.begin(), ratio.end());
-      result.rows.push_back({{"what", all[k].what},
-                             {"steps", small ? "small" : "random"},
-                             {"way", all[k].way},
-                             {"us", significant(median(us[k]), 3)},
-                             {"ratio", significant(middle, 3)},
-                             {"ratio_least", significant(*least, 3)},
-                             {"ratio_most", significant(*most, 3)},
-                             {"hits", counted[k]}});
-      result.spread = std::max(result.spread, (*most - *least) / (2 * middle));
+      nlohmann::ordered_json row{{"what", all[k].what},
+                                 {"steps", small ? "small" : "random"},
+                                 {"way", all[k].way},
+                                 {"us", significant(median(us[k]), 3)}};
+      row.update(ratios(us[k], us[own], result.spread));
+      row["hits"] = counted[k];
+      result.rows.push_back(std::move(row));
     }
   }
 

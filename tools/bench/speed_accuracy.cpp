@@ -50,9 +50,12 @@ int main(int argc, char** argv) {
   app.option("--turns", turns, "print them so many times").needs(figures).whole(1);
   app.option("--seed", options.seed, "of the poses").whole().shown();
   app.option("-o,--output", folder, "folder for the files; without --summary docs/measured");
-  app.option("--only", only, "one measurement").oneOf({"jump", "solver", "model", "size"}).excludes(figures);
+  app.option("--only", only, "one measurement")
+      .oneOf({"jump", "solver", "model", "size", "verdict"})
+      .excludes(figures);
   app.option("--calls", options.calls, "calls a point of the size chart").shown().whole(1);
-  app.option("--blocks", options.blocks, "blocks of 840 queries a method of the solver and the model error")
+  app.option("--blocks", options.blocks,
+             "blocks of 840 queries a method of the solver and the model error, of 175 of verdicts")
       .shown()
       .whole(1);
   return app.run(argc, argv, [&] {
@@ -71,8 +74,9 @@ int main(int argc, char** argv) {
       const char* name;
       Measurement (*measure)(const SpeedOptions&);
     };
-    for (const Entry& entry : {Entry{"jump", jumpTest}, Entry{"solver", solverError},
-                               Entry{"model", modelError}, Entry{"size", sizeTimes}})
+    for (const Entry& entry :
+         {Entry{"jump", jumpTest}, Entry{"solver", solverError}, Entry{"model", modelError},
+          Entry{"size", sizeTimes}, Entry{"verdict", verdictTimes}})
       if (only.empty() || only == entry.name) write(entry.measure(options), command, folder);
     return 0;
   });

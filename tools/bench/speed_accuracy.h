@@ -19,5 +19,7 @@ Measurement modelError(const SpeedOptions& options);   ///< over-cover, time and
 /// Largest change of the gradient on finer and finer paths.
 Measurement jumpTest(const SpeedOptions& options);
 Measurement sizeTimes(const SpeedOptions& options);  ///< time against vertices (the paper's figure 8)
+/// Yes or no for one pair, apart and overlapping.
+Measurement verdictTimes(const SpeedOptions& options);
 
 }  // namespace fcl_stpbv::benchmark

@@ -143,6 +143,15 @@ def collide():
                       f"{row['fcl_too_deep']:.0f} %" if "fcl_too_deep" in row else "") for row in measured("collide")["rows"]])
 
 
+@table("verdict")
+def verdict():
+    rows = {(row["way"], row["bodies"]): row for row in measured("verdict")["rows"]}
+    bodies = list(dict.fromkeys(key[1] for key in rows))
+    cell = lambda row: f"{row['ns']:,.0f} ({row['ratio']:.3g})"
+    return markdown(("ns, and as a multiple of the first way's, hulls", *bodies),
+                    [(way, *(cell(rows[way, name]) for name in bodies)) for way in dict.fromkeys(key[0] for key in rows)])
+
+
 @table("shapes")
 def shapes():
     rows = {(row["body"], row["asked"], row["nearest"], row["shape"]): row for row in measured("shapes")["rows"]}
