@@ -7,9 +7,12 @@
 #include <cstdio>
 #include <memory>
 
+#include "docs/examples/reported.h"
 #include "fcl_stpbv/adapter/distance_callback.h"
 
-int main() {
+namespace {
+
+int run() {
   const std::vector<fcl::Vector3d> points{{0, 0, 0}, {0.3, 0, 0}, {0, 0.2, 0}, {0, 0, 0.1}};
   const auto link = std::make_shared<fcl_stpbv::StpBvGeometry>(fcl_stpbv::StpBv::build(points, {0.01, 10.0}));
 
@@ -30,3 +33,7 @@ int main() {
   std::printf("distance %.6f m, normal %.3f %.3f %.3f\n", data.result.distance, n.x(), n.y(), n.z());
   return data.result.distance > 0.2 && data.result.status == fcl_stpbv::DistanceStatus::exact ? 0 : 1;
 }
+
+}  // namespace
+
+int main(int argc, char** argv) { return reported(argc, argv, run); }

@@ -9,7 +9,11 @@
 #include <cstdio>
 #include <memory>
 
-int main() {
+#include "docs/examples/reported.h"
+
+namespace {
+
+int run() {
   const auto points = std::make_shared<const std::vector<fcl::Vector3d>>(
       std::vector<fcl::Vector3d>{{0, 0, 0}, {0.3, 0, 0}, {0, 0.2, 0}, {0, 0, 0.1}});
   const auto faces = std::make_shared<const std::vector<int>>(
@@ -32,3 +36,7 @@ int main() {
   std::printf("distance %.6f m\n", data.result.min_distance);
   return data.result.min_distance > 0.2 ? 0 : 1;
 }
+
+}  // namespace
+
+int main(int argc, char** argv) { return reported(argc, argv, run); }

@@ -167,10 +167,11 @@ bool show(const std::vector<Tick>& smooth, const std::vector<Tick>& flat, std::o
 }  // namespace
 
 int main(int argc, char** argv) {
-  return reported([&] {
+  const auto work = [&] {
     const std::filesystem::path folder = argc > 1 ? argv[1] : ".";
     const Robot robot = load();
     std::ofstream csv = opened(folder / "controller.csv"), page = opened(folder / "controller.html");
     return show(run(robot, true), run(robot, false), csv, page) ? 0 : 1;
-  });
+  };
+  return reported(argc, argv, work, "[FOLDER]");
 }

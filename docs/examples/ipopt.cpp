@@ -165,4 +165,4 @@ for (double R : {0.3, 1.0, 3.0, 10.0}) {             // m; each from the solutio
 
 }  // namespace
 
-int main() { return reported(run); }
+int main(int argc, char** argv) { return reported(argc, argv, run); }

@@ -28,4 +28,4 @@ const MotionBracket first = check.firstContact(q0, q1);         // first.verdict
 
 }  // namespace
 
-int main() { return reported(run); }
+int main(int argc, char** argv) { return reported(argc, argv, run); }

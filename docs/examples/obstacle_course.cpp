@@ -20,9 +20,12 @@
 #include <utility>
 #include <vector>
 
+#include "docs/examples/reported.h"
 #include "fcl_stpbv/adapter/fcl_distance.h"
 
-int main() {
+namespace {
+
+int run() {
   using Eigen::Vector3d;
   const std::vector<Vector3d> corners{
       {-0.1, -0.05, -0.05}, {0.1, -0.05, -0.05}, {0, 0.1, -0.05}, {0, 0, 0.1}};
@@ -60,3 +63,7 @@ int main() {
   }
   return good ? 0 : 1;
 }
+
+}  // namespace
+
+int main(int argc, char** argv) { return reported(argc, argv, run); }

@@ -15,8 +15,8 @@
 
 using namespace fcl_stpbv;
 
-int main() {
-  return reported([] {
+int main(int argc, char** argv) {
+  return reported(argc, argv, [] {
     std::vector<StpBv::Ptr> volumes;
     // clang-format off
 const ConvexParts parts = convexParts(loadMesh("meshes/BODY.dae"), {8});   // eight at most

@@ -24,4 +24,4 @@ for (int i = 0; i < 100 && !proof.open.empty(); ++i) proof = provePair(scene, pa
 
 }  // namespace
 
-int main() { return reported(run); }
+int main(int argc, char** argv) { return reported(argc, argv, run); }

@@ -3,10 +3,13 @@
 
 #include <cstdio>
 
+#include "docs/examples/reported.h"
 #include "fcl_stpbv/adapter/distance_callback.h"
 #include "fcl_stpbv/adapter/fcl_hessian.h"
 
-int main() {
+namespace {
+
+int run() {
   std::vector<Eigen::Vector3d> points;
   for (int i = 0; i < 8; ++i) points.emplace_back(i & 1 ? 0.1 : -0.1, i & 2 ? 0.1 : -0.1, i & 4 ? 0.1 : -0.1);
   fcl::Transform3d pose = fcl::Transform3d::Identity();
@@ -40,3 +43,7 @@ const bool known = fcl_stpbv::hessian(*data.result.object[0], *data.result.objec
                     found.distance <= found.upper;
   return good ? 0 : 1;
 }
+
+}  // namespace
+
+int main(int argc, char** argv) { return reported(argc, argv, run); }

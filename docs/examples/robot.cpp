@@ -82,4 +82,4 @@ Posture posture = findPosture(setup);                // throws Error only for a 
 
 }  // namespace
 
-int main() { return reported(run); }
+int main(int argc, char** argv) { return reported(argc, argv, run); }

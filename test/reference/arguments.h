@@ -19,16 +19,16 @@ class Arguments {
   /// `usage` names the arguments, such as "[QUERIES [SEED]]". `most` is the largest number of arguments.
   Arguments(int argc, char** argv, std::string usage, int most)
       : count_(argc - 1), argv_(argv), usage_(std::string(argv[0]) + " " + std::move(usage)) {
-    if (count_ == 1 && (std::string_view(argv[1]) == "--help" || std::string_view(argv[1]) == "-h")) {
-      std::printf("%s\n", usage_.c_str());
-      std::exit(0);
-    }
-    if (count_ > most) refuse();
     std::atexit([] {  // results that could not be written are a failure, whatever they are
       if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return;
       std::perror("standard output cannot be written");
       std::_Exit(2);
     });
+    if (count_ == 1 && (std::string_view(argv[1]) == "--help" || std::string_view(argv[1]) == "-h")) {
+      std::printf("%s\n", usage_.c_str());
+      std::exit(0);
+    }
+    if (count_ > most) refuse();
   }
 
   /// The argument `i`, counted from 1, or `standard` if there are fewer.

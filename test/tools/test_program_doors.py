@@ -2,6 +2,7 @@
 
     test_program_doors.py BIN_FOLDER PROJECT
 """
+import os
 import pathlib
 import re
 import subprocess
@@ -11,15 +12,11 @@ import unittest
 from terminal import shown_on_terminal
 
 BIN, PROJECT = (pathlib.Path(folder).resolve() for folder in sys.argv[1:3])
-PROGRAMS = [BIN / name for name in (
-    "mesh_to_stpbv", "urdf_collision_report", "urdf_to_stpbv", "find_posture", "demo", "jump_sweep", "speed_accuracy", "stability")]
-SOAKS = [BIN / name for name in (
-    "distance_soak", "shape_soak", "deep_soak", "truth_soak", "mirrored_limbs", "cloud_report", "fuzz", "geodesic_queries", "answers_usual")]
-# If they were built: target `benchmarks`, and some only with Bullet or IPOPT.
-PROGRAMS += [BIN / name for name in (
-    "adapter_figures", "build_benchmark", "constraints_benchmark", "control_bench", "optimise_bench", "parts_benchmark", "posture_study", "proof_boxes")
-    if (BIN / name).exists()]
-SOAKS += [BIN / name for name in ("mirrored_soak", "bound_soak", "parts_soak") if (BIN / name).exists()]
+# Everything that was built, except Catch2's test programs: examples, programs with options, and programs that take a few plain numbers.
+BUILT = [path for path in sorted(BIN.iterdir()) if path.is_file() and os.access(path, os.X_OK) and not path.name.startswith("test_")]
+EXAMPLES = [path for path in BUILT if path.name.startswith("example_")]
+PROGRAMS = [path for path in BUILT if path not in EXAMPLES and b"Options:" in subprocess.run([path, "--help"], capture_output=True, timeout=60).stdout]
+SOAKS = [path for path in BUILT if path not in EXAMPLES + PROGRAMS]
 # Words that some scripts accept: ctest's options, names of files and folders, and words that a program of the
 # project refuses itself.
 TAKE = {"nonsense": ("check_format", "demo", "fuzz", "make_packages"), "--no-such-option": ("test",)}
@@ -62,11 +59,38 @@ class Programs(unittest.TestCase):
                     done = run(program, option)
                     self.assertEqual((done.returncode, done.stderr), (0, ""), done)
                     self.assertTrue(done.stdout)
-                    with open("/dev/full", "w") as full:
-                        done = run(program, option, stdout=full, stderr=subprocess.PIPE)
-                    self.assertEqual(done.returncode, 2)
-                    self.assertIn("standard output cannot be written", done.stderr)
+                    self.refused_output(program, option)
                 self.assertRegex(run(program, "--version").stdout, rf"^{program.name} \d+\.\d+\.\d+\n$")
+
+    def test_none_of_the_kinds_of_programs_is_missing(self):
+        for programs, least in ((EXAMPLES, 9), (PROGRAMS, 9), (SOAKS, 9)):
+            self.assertGreaterEqual(len(programs), least, programs)
+
+    def test_soaks_print_their_usage_and_a_full_standard_output_is_a_failure(self):
+        for program in SOAKS:
+            with self.subTest(program=program.name):
+                done = run(program, "--help")
+                self.assertEqual((done.returncode, done.stderr), (0, ""), done)
+                self.assertIn(program.name, done.stdout)
+                self.refused_output(program, "--help")
+
+    def refused_output(self, program, *arguments, **options):
+        with open("/dev/full", "w") as full:
+            done = run(program, *arguments, stdout=full, stderr=subprocess.PIPE, **options)
+        self.assertEqual(done.returncode, 2, done)
+        self.assertIn("standard output cannot be written", done.stderr)
+
+    def test_examples_refuse_what_they_do_not_take_and_a_full_standard_output(self):
+        for program in EXAMPLES:
+            for words in (["--no-such-option"], ["-Z"], ["a", "b", "c", "d"]):
+                with self.subTest(program=program.name, words=words):
+                    self.refused(run(program, *words), "usage: ")
+            if program.name not in ("example_controller", "example_ompl", "example_parts"):  # two write files, one takes ten seconds
+                with self.subTest(program=program.name):
+                    self.refused_output(program, cwd=PROJECT / "data/hrp2_style")
+
+    def test_a_list_of_benchmarks_that_cannot_be_written_is_a_failure(self):
+        self.refused_output(PROJECT / "tools/bench/all", "--list")
 
     def test_help_fits_the_terminal_or_else_80_columns(self):
         def longest(text):

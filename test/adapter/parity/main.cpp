@@ -3,14 +3,13 @@
 // fcl_parity --check PAGE    fails if the page differs
 //   fcl_parity --seed N        the same about other poses and motions; fails where the library is wrong, as
 //   all do
-#include <charconv>
+#include <cstdint>
 #include <cstdio>
-#include <exception>
 #include <string>
-#include <string_view>
 
 #include "fcl_stpbv/io/text_scanner.h"
 #include "test/adapter/parity/questions.h"
+#include "tools/program.h"
 
 using namespace fcl_stpbv;
 using namespace fcl_stpbv::parity;
@@ -81,30 +80,23 @@ A cell is one pair of types, the row's the first one. `.`: both are right. A let
   return text;
 }
 
-bool readSeed(std::string_view word, int& seed) {
-  const auto read = std::from_chars(word.data(), word.data() + word.size(), seed);
-  return read.ec == std::errc() && read.ptr == word.data() + word.size() && seed >= 0 && seed <= 1000000;
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
-  const std::string option = argc > 1 ? argv[1] : "";
-  const bool check = option == "--check", seeded = option == "--seed";
-  int seed = 0;
-  if ((argc != 1 && !(argc == 3 && (check || seeded))) || (seeded && !readSeed(argv[2], seed))) {
-    std::fprintf(stderr, "usage: %s [--check PAGE | --seed N]\n", argv[0]);
-    return 2;
-  }
-  try {
-    const std::string text = page(seed);
-    if (!check) std::printf("%s", text.c_str());
+  tools::Program program(
+      "Asks FCL and the library about every pair of types, and prints docs/fcl_differences.md.",
+      "fcl_parity");
+  std::string checked;
+  std::uint64_t seed = 0;
+  tools::Option check = program.option("--check", checked, "Fail if this page says otherwise").type("PAGE");
+  program.option("--seed", seed, "The same about other poses and motions").whole(0, 1000000).excludes(check);
+  return program.run(argc, argv, [&] {
+    const std::string text = page(static_cast<int>(seed));
+    if (checked.empty()) std::printf("%s", text.c_str());
     if (text.find(kOursIsWrong) != std::string::npos) return 1;
-    if (!check) return 0;
-    if (detail::readText(argv[2]) == text) return 0;
-    std::fprintf(stderr, "%s is not what fcl_parity finds: fcl_parity > %s\n", argv[2], argv[2]);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "%s\n", error.what());
-  }
-  return 1;
+    if (checked.empty() || detail::readText(checked) == text) return 0;
+    std::fprintf(stderr, "%s is not what fcl_parity finds: fcl_parity > %s\n", checked.c_str(),
+                 checked.c_str());
+    return 1;
+  });
 }
