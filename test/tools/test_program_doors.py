@@ -7,6 +7,7 @@ import pathlib
 import re
 import subprocess
 import sys
+import tempfile
 import unittest
 
 from terminal import shown_on_terminal
@@ -179,15 +180,22 @@ class Programs(unittest.TestCase):
                     self.refused(run(BIN / name, *["robot.urdf"] * robot, "--name", "a/b"), "--name a/b: ")
         self.assertGreaterEqual(tried, 1)
 
-    def test_a_folder_that_cannot_be_written_is_refused_before_the_work(self):
-        folder, tried = __file__ + "/folder", 0  # inside a file
-        for program in {*PROGRAMS, BIN / "collide_figures", BIN / "mesh_figures", BIN / "shape_figures", BIN / "robot_bench", BIN / "scene_models"}:
-            entries = dict(entries_of(program)) if program.exists() else {}
-            if "-o,--output" in entries and program.name not in ("mesh_to_stpbv", "urdf_to_stpbv", "urdf_collision_report", "find_posture"):
-                with self.subTest(program=program.name):
-                    tried += 1
-                    self.refused(run(program, *["robot.urdf"] * ("ROBOT" in entries), "-o", folder), f"-o {folder}: cannot be written")
-        self.assertGreaterEqual(tried, 3)
+    def test_a_folder_that_does_not_exist_is_refused_before_the_work_and_not_made(self):
+        tried = 0
+        with tempfile.TemporaryDirectory() as place:
+            for program in PROGRAMS:
+                entries = dict(entries_of(program))
+                if "-o,--output" not in entries or program.name in ("mesh_to_stpbv", "urdf_to_stpbv", "urdf_collision_report", "find_posture"):
+                    continue
+                for folder, says in ((place + "/missing", "this folder does not exist; make it first"), (__file__, "is a file, expected a folder")):
+                    with self.subTest(program=program.name, folder=folder):
+                        tried += 1
+                        self.refused(run(program, *["robot.urdf"] * ("ROBOT" in entries), "-o", folder), f"-o {folder}: {says}")
+                        self.assertEqual(os.listdir(place), [])
+            for script in ("radii", "scale", "posture_grid"):
+                with self.subTest(script=script):
+                    self.refused(run(PROJECT / "tools/bench" / script, "-o", place + "/missing"), "-o/--output: ", "this folder does not exist; make it first")
+        self.assertGreaterEqual(tried, 6)
 
 
 if __name__ == "__main__":

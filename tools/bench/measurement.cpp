@@ -105,9 +105,12 @@ void requirePlace(const std::filesystem::path& folder, const std::string& name) 
   if (name.empty() || name.find('/') != std::string::npos)
     throw Error("--name " + name + ": expected the name of a file without its folder, which -o names");
   if (folder.empty()) return;
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error || ::access(folder.c_str(), W_OK | X_OK) != 0)
+  std::error_code ignored;
+  if (!std::filesystem::is_directory(folder, ignored))
+    throw Error("-o " + folder.string() +
+                (std::filesystem::exists(folder, ignored) ? ": is a file, expected a folder"
+                                                          : ": this folder does not exist; make it first"));
+  if (::access(folder.c_str(), W_OK | X_OK) != 0)
     throw Error("-o " + folder.string() + ": cannot be written to; name another folder");
 }
 
@@ -124,7 +127,6 @@ void write(const Measurement& measurement, const std::string& command, const std
   for (std::size_t i = 0; i < measurement.rows.size(); ++i)
     content += (i ? ",\n" : "\n") + measurement.rows[i].dump();
   content += "\n]\n}\n";
-  std::filesystem::create_directories(folder);
   const std::filesystem::path path = folder / (measurement.name + ".json");
   atomicWrite(path.string(), content);
   std::fprintf(stderr, "wrote %s\n", path.c_str());

@@ -48,8 +48,8 @@ double significant(double value, int digits);
 /// The value with few digits, such as "10" or "0.5".
 std::string shown(double value);
 
-/// Call it before the work. Checks that write() can write a file of this name into the folder, which is
-/// created if it is missing; "" for no folder. @throws Error if it cannot, or if the name is empty or
+/// Call it before the work. Checks that write() can write a file of this name into the folder, which must
+/// exist; "" for no folder. @throws Error if it cannot, or if the name is empty or
 /// contains a folder.
 void requirePlace(const std::filesystem::path& folder, const std::string& name);
 
