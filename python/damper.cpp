@@ -207,8 +207,9 @@ void addDampers(py::module_& module, py::class_<PythonRobot>& robotClass) {
           "level: \"velocity\" (x = qd), \"acceleration\" or \"barrier\" (x = qdd). influence d_i, security\n"
           "d_s (m), damping xi (m/s): dd/dt >= -xi (d - d_s) / (d_i - d_s) from d_i on. rows: those three\n"
           "of single rows, by index. headroom (m/s): a pair that enters faster than its row allows gets a\n"
-          "larger xi, so that the row does not act at once; negative: never. period: the controller's (s).\n"
-          "barrier_gain: g (1/s).")
+          "larger xi, so that the row does not act at once; negative: never. barrier_gain: g (1/s).\n"
+          "period: the controller's (s). It limits a = xi / (d_i - d_s) to 1 / period, to 1 / (3 period) at\n"
+          "level \"acceleration\", a + g to 1 / period at level \"barrier\".")
       .def("update", &PythonDamper::update, py::arg("q"), py::arg("qd"),
            "(A, b): the rows within their influence, `near`, at q, while q moves with velocity qd.")
       .def_property_readonly(
@@ -243,7 +244,9 @@ void addDampers(py::module_& module, py::class_<PythonRobot>& robotClass) {
           [](const PythonDamper& damper, int row) {
             return damper.of([&](const VelocityDamper& of) { return of.damping(row); });
           },
-          py::arg("row"), "xi of a row: its own, or what it got on entering, until it leaves (m/s).")
+          py::arg("row"),
+          "xi of a row: its own, smaller if the period limits it, or what it got on entering, until it "
+          "leaves (m/s).")
       .def(
           "barrier_gain",
           [](const PythonDamper& damper, int row) {

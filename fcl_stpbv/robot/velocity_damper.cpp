@@ -19,12 +19,28 @@ using namespace detail;
 // Values outside this range (m, m/s, s, 1/s) are taken for mistakes. A gain or a period is never 0.
 constexpr double kLeast = 1e-9, kLargest = 1e9;
 
-// Largest gain times period that a row gets when its pair enters. With sampled velocities, a value of 1
-// reaches the security distance in one period. With sampled accelerations, integrated as v += p u, d += p v
-// or exactly, the pair reaches the security distance without passing it if all roots of the closed loop are
-// real and not negative. That is true for one gain with a value of up to 0.34, and for two gains whose values
-// add up to at most 1.
-constexpr double kMostGain = 1, kMostGainOfAccelerations = 1.0 / 3;
+// Largest gain times period of a row (docs/control.md). With sampled velocities, a value of 1 reaches the
+// security distance in one period. With sampled accelerations, integrated as v += p u, d += p v or exactly, a
+// pair approaches the security distance without passing it if all roots of the closed loop are real and not
+// negative. That is true for one gain with a value of up to 0.34, and for two gains whose values add up to at
+// most 1. Each of the two is raised to at most 1/3.
+constexpr double kMostGain = 1, kMostGainOfAccelerations = 1.0 / 3, kMostSum = 1;
+
+// With sampled accelerations, gains of 1/3 keep a pair from its security distance if its speed times the
+// period is at most this part of its room. A faster pair is braked more as it enters.
+constexpr double kSlow = 2.0 / 3;
+
+double mostGain(DamperLevel level, double period) {
+  return (level == DamperLevel::velocity ? kMostGain : kMostGainOfAccelerations) / period;
+}
+
+// Two gains whose sum is too large: the larger one is lowered, down to the smaller one; then both.
+void limitSum(double& a, double& g, double most) {
+  double &smaller = a < g ? a : g, &larger = a < g ? g : a;
+  if (smaller + larger <= most) return;
+  smaller = std::min(smaller, most / 2);
+  larger = most - smaller;
+}
 
 // `of` is "" or names the row.
 void check(const Damper& damper, const std::string& of = "") {
@@ -88,9 +104,21 @@ double VelocityDamper::barrierGain(int row) const {
   return gain_[at(row)];
 }
 
+double VelocityDamper::rate(int row) const {
+  return damping_[at(row)] / (dampers_[at(row)].influence - dampers_[at(row)].security);
+}
+
 void VelocityDamper::rest(int row) {
+  const double reach = dampers_[at(row)].influence - dampers_[at(row)].security;
   damping_[at(row)] = dampers_[at(row)].damping;
   gain_[at(row)] = options_.barrierGain;
+  const double own = rate(row);
+  double a = own;
+  if (options_.level == DamperLevel::barrier)
+    limitSum(a, gain_[at(row)], kMostSum / options_.period);
+  else
+    a = std::min(a, mostGain(options_.level, options_.period));
+  if (a < own) damping_[at(row)] = a * reach;
 }
 
 void VelocityDamper::enter(int row) {
@@ -105,14 +133,12 @@ void VelocityDamper::enter(int row) {
 // The row requires a * room >= speed, where `speed` is the present speed towards the other body.
 void VelocityDamper::raise(int row, double room) {
   const Damper& damper = dampers_[at(row)];
-  const double reach = damper.influence - damper.security, own = damper.damping / reach;
-  double speed = -rates_.speed[row], most = kMostGain / options_.period;
-  if (options_.level == DamperLevel::acceleration) {
-    speed -= options_.period * rates_.drift[row];
-    most = kMostGainOfAccelerations / options_.period;
-  }
+  const double reach = damper.influence - damper.security, own = rate(row);
+  const double most = mostGain(options_.level, options_.period);
+  double speed = -rates_.speed[row];
+  if (options_.level == DamperLevel::acceleration) speed -= options_.period * rates_.drift[row];
   const double excess = speed - own * room;
-  if (!(excess > 0) || own > most) return;
+  if (!(excess > 0)) return;
   damping_[at(row)] = std::min(most, (speed + std::min(options_.headroom, excess)) / room) * reach;
 }
 
@@ -122,21 +148,21 @@ void VelocityDamper::raise(int row, double room) {
 void VelocityDamper::raiseBoth(int row, double room) {
   const Damper& damper = dampers_[at(row)];
   const double reach = damper.influence - damper.security;
-  double &g = gain_[at(row)], a = damper.damping / reach;
+  double &g = gain_[at(row)], a = rate(row);
   double speed = -rates_.speed[row];
   const double fall = std::max(0.0, -rates_.drift[row]);
   const double excess = speed + (fall - a * g * room) / (a + g);
   if (!(excess > 0)) return;
   speed += std::min(options_.headroom, excess);
   double &smaller = a < g ? a : g, &larger = a < g ? g : a;
-  const double most = kMostGainOfAccelerations / options_.period;
+  const double most = mostGain(options_.level, options_.period), sum = kMostSum / options_.period;
   const double needed = (larger * speed + fall) / (larger * room - speed);
   if (larger * room > speed && needed <= larger) {
-    smaller = std::max(smaller, std::min(most, needed));
+    smaller = std::max(smaller, std::min({most, sum - larger, needed}));
   } else {
     const double both = std::min(most, (speed + std::sqrt(speed * speed + room * fall)) / room);
-    smaller = std::max(smaller, both);
     larger = std::max(larger, both);
+    smaller = std::max(smaller, std::min(both, sum - larger));
   }
   damping_[at(row)] = a * reach;
 }
@@ -144,13 +170,25 @@ void VelocityDamper::raiseBoth(int row, double room) {
 double VelocityDamper::bound(int row) const {
   const Damper& damper = dampers_[at(row)];
   const double room = rates_.d[row] - damper.security, speed = rates_.speed[row];
-  const double rate = damping_[at(row)] / (damper.influence - damper.security);
-  const double gain = gain_[at(row)];
-  const double allowed = -rate * room;
+  const double a = rate(row), g = gain_[at(row)];
+  const double allowed = -a * room;
   if (options_.level == DamperLevel::velocity) return allowed;
   const double drift = rates_.drift[row];
   if (options_.level == DamperLevel::acceleration) return (allowed - speed) / options_.period - drift;
-  return -drift - (rate + gain) * speed - rate * gain * room;
+  return -drift - (a + g) * speed - a * g * room;
+}
+
+// Only for the period in which a pair enters too fast for the largest gains. One period later its speed times
+// the period is at most kSlow of the room that is left then, if its acceleration is integrated exactly; with
+// v += p u, d += p v more room is left. But it is never pushed away: a pair that would be at the security
+// distance within half a period is stopped.
+double VelocityDamper::brake(int row) const {
+  const double room = rates_.d[row] - dampers_[at(row)].security, speed = rates_.speed[row];
+  const double period = options_.period;
+  if (options_.level == DamperLevel::velocity || options_.headroom < 0) return -kInfinity;
+  if (!(-speed * period > kSlow * room)) return -kInfinity;
+  const double allowed = std::min(0.0, -(room / period + speed / 2) / (1 / kSlow + 0.5));
+  return (allowed - speed) / period - rates_.drift[row];
 }
 
 void VelocityDamper::update(const Eigen::Ref<const Eigen::VectorXd>& q,
@@ -173,10 +211,12 @@ void VelocityDamper::update(const Eigen::Ref<const Eigen::VectorXd>& q,
   for (int row = 0; row < constraints_.rows(); ++row) {
     // A NaN value counts as inside.
     const bool inside = !(rates_.d[row] >= dampers_[at(row)].influence);
-    if (inside && !inside_[at(row)]) enter(row);
+    const bool entered = inside && !inside_[at(row)];
+    if (entered) enter(row);
     if (!inside && inside_[at(row)]) rest(row);
     inside_[at(row)] = inside;
-    const double b = inside ? bound(row) : -kInfinity;
+    double b = inside ? bound(row) : -kInfinity;
+    if (entered) b = std::max(b, brake(row));
     b_[row] = std::isnan(b) ? kInfinity : b;
     if (inside) near_.push_back(row);
   }

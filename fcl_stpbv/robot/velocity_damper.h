@@ -38,10 +38,11 @@ struct DamperOptions {
   /// once. At level `barrier`, a row also limits at once an acceleration towards the other body that exceeds
   /// what the barrier allows. Negative: gains are never raised.
   double headroom = 0.05;
-  /// Period of the controller (s), used at every level. It limits the gains a and g that are raised when a
-  /// pair enters: to 1 / period, or to 1 / (3 period) with accelerations. With larger gains a pair could pass
-  /// `security` between two periods. So a row acts at once if the pair would reach `security` within 1 period
-  /// (with accelerations 3, at level `barrier` 6).
+  /// Period of the controller (s), used at every level. It limits all gains, the given ones too: a to
+  /// 1 / period, at level `acceleration` to 1 / (3 period), at level `barrier` a + g to 1 / period. With
+  /// larger gains a pair could pass `security` between two periods. At level `barrier`, when a pair enters, a
+  /// and g are raised to at most 1 / (3 period) each. So a row acts at once if the pair would reach
+  /// `security` within 1 period (with accelerations 3, at level `barrier` 6).
   double period = 1e-3;
   double barrierGain = 50;  ///< g (1/s), for `barrier`
 };
@@ -72,20 +73,22 @@ class VelocityDamper {
   /// @throws Error unless `A` has columns() columns and both have at least near().size() rows.
   int dense(Eigen::Ref<Eigen::MatrixXd> A, Eigen::Ref<Eigen::VectorXd> b) const;
 
-  /// The current xi of a row (m/s): that of its Damper, or the raised one while its pair is within the
-  /// influence. @throws Error for a row that does not exist.
+  /// The current xi of a row (m/s): that of its Damper, smaller if the period limits it, or the raised one
+  /// while its pair is within the influence. @throws Error for a row that does not exist.
   double damping(int row) const;
-  /// The current g of a row (1/s): that of the options, or the raised one while its pair is within the
-  /// influence. @throws Error for a row that does not exist.
+  /// The current g of a row (1/s): that of the options, smaller if the period limits it, or the raised one
+  /// while its pair is within the influence. @throws Error for a row that does not exist.
   double barrierGain(int row) const;
 
  private:
   void requireRow(int row) const;
+  double rate(int row) const;
   void rest(int row);
   void enter(int row);
   void raise(int row, double room);
   void raiseBoth(int row, double room);
   double bound(int row) const;
+  double brake(int row) const;
 
   CollisionConstraints& constraints_;
   DamperOptions options_;

@@ -3,6 +3,8 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <random>
+#include <utility>
 
 #include "fcl_stpbv/robot/velocity_damper.h"
 #include "test/reference/robots.h"
@@ -145,6 +147,75 @@ TEST_CASE("a pair that enters at any speed that leaves it time does not pass its
           CAPTURE(static_cast<int>(level), exact, room, periods);
           CHECK(least >= -1e-12);  // rounding
         }
+}
+
+TEST_CASE("no pair passes its security distance with any gains, at periods of 1 ms to 0.5 s") {
+  const Rail rail;
+  std::mt19937 random(1);
+  const auto uniform = [&](double from, double to) {
+    return std::uniform_real_distribution<double>(from, to)(random);
+  };
+  for (const double period : {1e-3, 3e-3, 0.01, 0.02, 0.03, 0.05, 0.08, 0.1, 0.2, 0.5})
+    for (const DamperLevel level : {DamperLevel::velocity, DamperLevel::acceleration, DamperLevel::barrier})
+      for (const bool exact : {false, true})
+        for (int trial = 0; trial < 40; ++trial) {
+          const bool velocity = level == DamperLevel::velocity;
+          DamperOptions options = at(level);
+          options.period = period;
+          if (trial % 4) {  // otherwise the gains that nobody has chosen
+            options.all.damping = kReach / period * std::pow(10, uniform(-3, 1));
+            options.barrierGain = std::pow(10, uniform(-3, 1)) / period;
+          }
+          if (trial % 3 == 0) options.headroom = 0;
+          VelocityDamper damper(*rail.constraints, options);
+          // Outside the influence a pair goes at most the way of the influence per tick.
+          const double most = kReach / period * std::pow(10, uniform(-2, 0));
+          double left = kReach + uniform(0, 1) * period * most, speed = most, least = 0, expected = 0;
+          bool near = false;
+          for (int tick = 0; tick < 60; ++tick) {
+            rail.update(damper, left, speed);
+            // An exact acceleration can stop a pair only on half of the tick's way.
+            if (exact && !velocity && !near && !damper.near().empty())
+              expected = std::min(expected, left - period * speed / 2);
+            near = !damper.near().empty();
+            const double wanted = uniform(0, 1) < 0.6 ? most : uniform(-0.3, 1) * most;
+            const double next = velocity ? allowed(damper, wanted)
+                                         : speed + period * allowed(damper, (wanted - speed) / period);
+            left -= period * (exact && !velocity ? (speed + next) / 2 : next);
+            speed = next;
+            least = std::min(least, left);
+          }
+          CAPTURE(period, static_cast<int>(level), exact, trial, options.all.damping, options.barrierGain,
+                  most);
+          CHECK(least >= expected - 1e-12);  // rounding
+        }
+}
+
+TEST_CASE("gains that the period makes too large are limited, all others stay as they are given") {
+  const Rail rail;
+  const auto gains = [&](DamperLevel level, double period, double a, double g) {
+    DamperOptions options = at(level);
+    options.period = period;
+    options.all.damping = a * kReach;
+    options.barrierGain = g;
+    const VelocityDamper damper(*rail.constraints, options);
+    if (damper.damping(0) == options.all.damping) return std::pair(a, damper.barrierGain(0));
+    return std::pair(damper.damping(0) / kReach, damper.barrierGain(0));
+  };
+  const auto check = [](std::pair<double, double> got, double a, double g) {
+    CHECK(got.first == Approx(a).epsilon(1e-14));
+    CHECK(got.second == Approx(g).epsilon(1e-14));
+  };
+  const DamperLevel velocity = DamperLevel::velocity, acceleration = DamperLevel::acceleration,
+                    barrier = DamperLevel::barrier;
+  check(gains(velocity, 0.1, 12.5, 50), 10, 50);
+  check(gains(acceleration, 0.1, 12.5, 50), 10.0 / 3, 50);
+  check(gains(barrier, 0.02, 12.5, 50), 12.5, 37.5);  // the larger one first
+  check(gains(barrier, 0.02, 50, 12.5), 37.5, 12.5);
+  check(gains(barrier, 0.1, 12.5, 50), 5, 5);  // then both
+  CHECK(gains(velocity, 0.1, 9.9, 50) == std::pair(9.9, 50.0));
+  CHECK(gains(acceleration, 0.1, 3.3, 50) == std::pair(3.3, 50.0));
+  CHECK(gains(barrier, 0.1, 1.7, 8.2) == std::pair(1.7, 8.2));
 }
 
 TEST_CASE("a damper on rows that bend over brakes as one on rows that do not") {
