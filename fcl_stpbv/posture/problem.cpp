@@ -45,11 +45,14 @@ PostureProblem::PostureProblem(std::shared_ptr<const Kinematics> kinematics, Pos
   requireSize("PostureProblem", "the cost's weights", cost_.weights.size(), kinematics_->size());
   requireSize("PostureProblem", "the cost's reference", cost_.reference.size(), kinematics_->size());
   detail::keepMimicLimits(*kinematics_, {lower_, lowerOf_}, {upper_, upperOf_});
-  for (const Kinematics::Motion& motion : kinematics_->motions()) {
-    const int i = motion.coordinate;
-    if (motion.joint >= 0 || !std::isfinite(lower_[i])) continue;
-    lower_[i] = start[i] - kPi / 2;
-    upper_[i] = start[i] + kPi / 2;
+  std::vector<int> turns;  // of the base
+  for (const Kinematics::Motion& motion : kinematics_->motions())
+    if (motion.joint < 0 && std::isfinite(lower_[motion.coordinate])) turns.push_back(motion.coordinate);
+  // One is the angle of a planar base, three are a rotation vector.
+  const double most = turns.size() == 1 ? kPi : kPi / 2;
+  for (const int i : turns) {
+    lower_[i] = start[i] - most;
+    upper_[i] = start[i] + most;
   }
 }
 

@@ -75,8 +75,9 @@ struct Violation {
 class PostureProblem {
  public:
   /// Sets the bounds of the variables. Joints keep to their limits and to those of the joints that mimic
-  /// them. Each component of a moving base's rotation vector stays within a quarter turn of that at `start`.
-  /// So the vector stays away from the full turn, where it is singular, for any orientation of the start.
+  /// them. Each component of a floating base's rotation vector stays within a quarter turn of that at
+  /// `start`. So the vector stays away from the full turn, where it is singular, for any orientation of the
+  /// start. The angle of a planar base stays within half a turn of that at `start`.
   /// @throws Error naming the joints, if the limits of mimic joints leave no value for a joint. This and all
   /// functions below throw Error for vectors of a wrong size.
   PostureProblem(std::shared_ptr<const Kinematics> kinematics, PostureCost cost,

@@ -95,6 +95,22 @@ TEST_CASE("a planar base keeps the height that the task gives it, and cannot be 
   CHECK(tilted.find("task.json: start.base.rpy: a planar base turns about z only") == 0);
 }
 
+TEST_CASE("a planar base turns to any direction, from any start") {
+  const PostureScene scene = armAmong("0 9 0");
+  for (const double start : {0.0, 2.0, -3.0})
+    for (const double turn : {0.5, 1.6, -2.0, 2.5, 3.0, -3.1}) {
+      const std::string to = std::to_string(start + turn);
+      const Posture posture = solved(
+          R"({"base": "planar", "start": {"base": {"rpy": [0, 0, )" + std::to_string(start) +
+              R"(]}}, "placements": [{"link": "base", "target": {"position": [-1, 0, 0], "rpy": [0, 0, )" +
+              to + R"(]}}]})",
+          scene);
+      CAPTURE(start, turn, posture.q.transpose());
+      REQUIRE(posture.feasible);
+      CHECK(std::abs(std::remainder(posture.q[2] - start - turn, 2 * M_PI)) < 1e-5);  // six decimals, 1e-6
+    }
+}
+
 TEST_CASE("every coordinate has the name that answers have") {
   const PostureScene scene = bodiesOf(kCart);
   const PostureTask task = taskOf(R"({"base": "floating", "start": {"base": {"position": [1, 2, 3]},
