@@ -83,10 +83,11 @@ Cloud randomCloud(Random& random) {
   return randomHull(4 + random.below(60), half, static_cast<std::uint64_t>(random.below(100000)));
 }
 
-// Rounding of three distances of bodies within 4 m, divided by the step squared, plus the third-order part.
+// Rounding of a second difference, which has four distances in all. Each may be off by 40 epsilon, below
+// 1e-14, of the bodies' size, which is below 1 m (kGapRounding in relative_pose.h).
 double noiseOf(const Pair& pair, const Motion& m) {
   const double s = m.apart + pair.r(), step = 2e-4 * s / (0.1 + m.speed + 0.1 * m.turning);
-  return 4e-15 / (step * step);
+  return 4e-14 / (step * step);
 }
 
 }  // namespace
