@@ -1,22 +1,27 @@
 // Verdicts and distances of whole robots by this library, FCL and Bullet, as a planner or a controller asks
-// for them. The methods take turns on the same random walks. For the table of docs/robot.md.
+// for them. The methods take turns on the same random walks. For the table of docs/robot.md, and with --sizes
+// for the chart of docs/performance.md.
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <functional>
+#include <thread>
 
 #include "fcl_stpbv/robot/batch.h"
 #include "fcl_stpbv/robot/checked_pairs.h"
 #include "test/reference/random_walk.h"
 #include "tools/bench/measurement.h"
 #include "tools/bench/robot/peer.h"
+#include "tools/bench/robot/sizes.h"
 #include "tools/program.h"
 
 using namespace fcl_stpbv;
 using namespace fcl_stpbv::benchmark;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
+using Row = nlohmann::ordered_json;
 
 namespace {
 
@@ -24,7 +29,7 @@ struct Arguments {
   std::string urdf, srdf, folder, name = "robot";
   std::vector<std::string> packagePath;
   int configurations = 2000, turns = 5;
-  bool json = false;
+  bool json = false, sizes = false;
 };
 
 /// One way to answer all configurations of a walk. The first way of each question is this library's.
@@ -46,35 +51,46 @@ std::function<long(const MatrixXd&)> each(Ask ask) {
 
 using Q = Eigen::Ref<const VectorXd>;
 
+PosedModel loadRobot(const Arguments& arguments) {
+  PosedModel robot;
+  robot.model = std::make_shared<const RobotModel>(loadUrdf(arguments.urdf));
+  GeometryOptions options;
+  options.packagePath = arguments.packagePath;
+  RobotGeometry bodies = loadGeometry(*robot.model, options);
+  Srdf srdf;
+  if (!arguments.srdf.empty()) srdf = loadSrdf(arguments.srdf, *robot.model);
+  robot.pairs = selfPairs(*robot.model, bodies, arguments.srdf.empty() ? nullptr : &srdf);
+  requirePairs(robot.pairs.size(), *robot.model, "those of the SRDF and adjacent ones are left out");
+  coverPrimitives(robot.pairs, bodies);
+  robot.geometry = std::make_shared<const RobotGeometry>(std::move(bodies));
+  robot.kinematics = std::make_shared<const Kinematics>(robot.model);
+  return robot;
+}
+
 class Bench {
  public:
-  explicit Bench(const Arguments& arguments) : arguments_(arguments) {
-    robot_.model = std::make_shared<const RobotModel>(loadUrdf(arguments.urdf));
-    GeometryOptions options;
-    options.packagePath = arguments.packagePath;
-    RobotGeometry bodies = loadGeometry(*robot_.model, options);
-    Srdf srdf;
-    if (!arguments.srdf.empty()) srdf = loadSrdf(arguments.srdf, *robot_.model);
-    robot_.pairs = selfPairs(*robot_.model, bodies, arguments.srdf.empty() ? nullptr : &srdf);
-    requirePairs(robot_.pairs.size(), *robot_.model, "those of the SRDF and adjacent ones are left out");
-    coverPrimitives(robot_.pairs, bodies);
-    robot_.geometry = std::make_shared<const RobotGeometry>(std::move(bodies));
-    robot_.kinematics = std::make_shared<const Kinematics>(robot_.model);
+  Bench(const Arguments& arguments, PosedModel robot) : arguments_(arguments), robot_(std::move(robot)) {
     checker_ = std::make_unique<CollisionChecker>(robot_.kinematics, robot_.geometry, robot_.pairs);
     rows_ = std::make_unique<CollisionConstraints>(robot_.kinematics, robot_.geometry, robot_.pairs);
     fcl_ = fclPeer(robot_);
+    gapStop_ = gapStopPeer(robot_);
     bullet_ = bulletPeer(robot_);
   }
 
-  Measurement measure() {
-    Measurement result;
-    result.name = arguments_.name;
-    result.about = {{"robot", robot_.model->name},
-                    {"pairs", robot_.pairs.size()},
-                    {"configurations", arguments_.configurations},
-                    {"turns", arguments_.turns}};
-    for (const bool small : {true, false}) measureSteps(small, result);
-    return result;
+  /// Adds rows for all ways, or for one thread and all pairs only. They begin with the entries of `about`.
+  void measure(bool all, const Row& about, Measurement& result) {
+    for (const bool small : {true, false}) {
+      std::vector<Way> chosen = ways();
+      if (all)
+        for (Way& way : batches(small ? Sequence::path : Sequence::independent))
+          chosen.push_back(std::move(way));
+      else
+        chosen.erase(
+            std::remove_if(chosen.begin(), chosen.end(),
+                           [](const Way& way) { return way.what != "all pairs" && way.what != "d and J"; }),
+            chosen.end());
+      measureSteps(small, chosen, about, result);
+    }
   }
 
  private:
@@ -94,11 +110,18 @@ class Bench {
     };
     add(fcl_.get());
     add(bullet_.get());
-    all.push_back({"d and J", "fcl::distance, no J", each([&](const Q& q) { return fcl_->distances(q); })});
+    const auto addDistances = [&](Peer* peer, const std::string& name) {
+      if (peer) all.push_back({"d and J", name, each([peer](const Q& q) { return peer->distances(q); })});
+    };
+    addDistances(fcl_.get(), "fcl::distance, no J");
+    addDistances(gapStop_.get(), "FCL's GJK, duality-gap stop, no J");
+    addDistances(bullet_.get(), "Bullet GJK, no J");
+    all.push_back({"least distance", "FCL, broadphase distance",
+                   each([&](const Q& q) { return fcl_->leastDistance(q) <= 0; })});
     return all;
   }
 
-  /// This library's batches, in one and in two threads.
+  /// This library's batches, in one and in two threads, and FCL in two.
   std::vector<Way> batches(Sequence sequence) {
     std::vector<Way> all;
     for (const int threads : {1, 2}) {
@@ -120,14 +143,29 @@ class Bench {
                      },
                      true});
     }
+    all.push_back({"batch, first hit", "FCL, broadphase, 2 threads", halves(), true});
     return all;
   }
 
-  void measureSteps(bool small, Measurement& result) {
+  /// FCL's first hits, half of the configurations in each of two threads that have their own managers.
+  std::function<long(const MatrixXd&)> halves() {
+    const std::array<std::shared_ptr<Peer>, 2> peers{fclPeer(robot_), fclPeer(robot_)};
+    return [peers](const MatrixXd& q) {
+      std::array<long, 2> count{0, 0};
+      const auto half = [&](std::size_t k) {
+        const Eigen::Index middle = q.cols() / 2, first = k ? middle : 0, last = k ? q.cols() : middle;
+        for (Eigen::Index i = first; i < last; ++i) count[k] += peers[k]->hits(q.col(i), true);
+      };
+      std::thread other(half, 1);
+      half(0);
+      other.join();
+      return count[0] + count[1];
+    };
+  }
+
+  void measureSteps(bool small, const std::vector<Way>& all, const Row& about, Measurement& result) {
     const MatrixXd q = test::randomWalk(*robot_.kinematics, small ? test::kSmallStep : test::kRandomStep,
                                         arguments_.configurations);
-    std::vector<Way> all = ways();
-    for (Way& way : batches(small ? Sequence::path : Sequence::independent)) all.push_back(std::move(way));
     std::vector<std::vector<double>> us(all.size());
     std::vector<long> counted(all.size());
     for (int turn = 0; turn < arguments_.turns; ++turn)
@@ -142,10 +180,11 @@ class Bench {
     for (std::size_t k = 0; k < all.size(); ++k) {
       std::size_t own = 0;  // the way that it is compared with
       while (all[own].what != all[k].what) ++own;
-      nlohmann::ordered_json row{{"what", all[k].what},
-                                 {"steps", small ? "small" : "random"},
-                                 {"way", all[k].way},
-                                 {"us", significant(median(us[k]), 3)}};
+      Row row = about;
+      row["what"] = all[k].what;
+      row["steps"] = small ? "small" : "random";
+      row["way"] = all[k].way;
+      row["us"] = significant(median(us[k]), 3);
       row.update(ratios(us[k], us[own], result.spread));
       row["hits"] = counted[k];
       result.rows.push_back(std::move(row));
@@ -156,9 +195,35 @@ class Bench {
   PosedModel robot_;
   std::unique_ptr<CollisionChecker> checker_;
   std::unique_ptr<CollisionConstraints> rows_;
-  std::unique_ptr<Peer> fcl_, bullet_;
+  std::unique_ptr<Peer> fcl_, gapStop_, bullet_;
   VectorXd d_, values_;
 };
+
+/// All ways for the whole robot, or some of them against the numbers of pairs and of vertices.
+Measurement measure(const Arguments& arguments) {
+  const PosedModel robot = loadRobot(arguments);
+  Measurement result;
+  result.name = arguments.name;
+  result.about = {{"robot", robot.model->name},
+                  {"pairs", robot.pairs.size()},
+                  {"configurations", arguments.configurations},
+                  {"turns", arguments.turns}};
+  if (!arguments.sizes) {
+    Bench(arguments, robot).measure(true, Row::object(), result);
+    return result;
+  }
+  const auto add = [&](const char* varied, const PosedModel& part) {
+    const Row about{
+        {"varied", varied}, {"pairs", part.pairs.size()}, {"vertices", std::round(meanVertices(part))}};
+    Bench(arguments, part).measure(false, about, result);
+  };
+  constexpr std::size_t kPairs = 130;
+  for (const std::size_t pairs : {std::size_t{8}, std::size_t{32}, kPairs, std::size_t{561}})
+    if (pairs <= robot.pairs.size()) add("pairs", withPairs(robot, pairs));
+  for (int subdivisions = 0; subdivisions <= 3; ++subdivisions)
+    add("vertices", withEllipsoids(withPairs(robot, std::min(kPairs, robot.pairs.size())), subdivisions));
+  return result;
+}
 
 }  // namespace
 
@@ -172,11 +237,13 @@ int main(int argc, char** argv) {
   app.option("--configurations", arguments.configurations, "of each random walk").whole(1).shown();
   app.option("--turns", arguments.turns, "of all ways").whole(1).shown();
   app.flag("--json", arguments.json, "print one JSON object instead of lines");
+  app.flag("--sizes", arguments.sizes,
+           "times against the number of pairs, then with ellipsoids of 12 to 642 vertices");
   app.option("-o,--output", arguments.folder, "folder for the JSON file");
   app.option("--name", arguments.name, "its name").shown();
   return app.run(argc, argv, [&] {
     requirePlace(arguments.folder, arguments.name);
-    const Measurement result = Bench(arguments).measure();
+    const Measurement result = measure(arguments);
     if (arguments.json) {
       nlohmann::ordered_json all = result.about;
       all["spread"] = significant(result.spread, 2);

@@ -196,7 +196,9 @@ def robot(height=470):
             ("2 threads", palette.SECOND, 13, "their batch on 2 threads"),
             ("FCL, broadphase", palette.FCL, 7, "FCL's broadphase; d: fcl::distance, no J"),
             ("Bullet, collision world", palette.OTHER, 9, "Bullet's collision world"))
-    small_print = origin({**measured("robot"), "command": "robot_bench"}, ["First hit and all pairs: collisions only; d and J: distances. Medians. Not made: a batch of all pairs, Bullet's distances."])
+    distances = {"FCL, broadphase": "fcl::distance, no J", "Bullet, collision world": "Bullet GJK, no J"}
+    missing = "a batch of all pairs" if any(row["way"] == "Bullet GJK, no J" for row in measured("robot")["rows"]) else "a batch of all pairs, Bullet's distances"
+    small_print = origin({**measured("robot"), "command": "robot_bench"}, [f"First hit and all pairs: collisions only; d and J: distances. Medians. Not made: {missing}."])
     text = panels(2, height, [*small_print, ""], legend_rows=2, panel_titles=True) + \
         legend([(colour, mark, name) for _, colour, mark, name in ways], height, columns=2) + \
         f"set logscale y\nset ytics {TIME_TICS}\nset yrange [300:2e6]\nset ylabel 'time of a configuration' offset 1\nset xrange [-0.5:{len(asked) - 0.5}]\n" \
@@ -207,7 +209,7 @@ def robot(height=470):
         for what, found in ratios.items():
             found += [row["ratio"] for row in data["rows"] if row["way"] == what]
         for i, (way, colour, mark, _) in enumerate(ways):
-            names = {way, "fcl::distance, no J"} if way.startswith("FCL") else {way}
+            names = {way, distances.get(way, way)}
             text += block(f"$robot{panel}{i}", [(asked.index(key), 1e3 * row["us"]) for row in data["rows"] if row["way"] in names
                                                 for key in [(row["what"].removeprefix("batch, "), row["steps"])] if key in asked])
             plots.append(f"$robot{panel}{i} using 1:2 with points pt {mark} ps 1.1 lc rgb '{colour}'")
@@ -217,4 +219,36 @@ def robot(height=470):
         *(end for found in ratios.values() for end in (min(found), max(found)))), text + "unset multiplot\n", small_print, height)
 
 
-CHARTS = (speed_accuracy, size, solver_error, model_error, jump_test, collide, robot)
+def robot_size(height=490):
+    """Configurations a second against the number of pairs and of vertices, after small steps."""
+    data = measured("robot_size")
+    rows = [row for row in data["rows"] if row["steps"] == "small"]
+    ours = ("fcl_stpbv", palette.SMOOTH, 7)
+    ways = {"all pairs": (ours, ("FCL, broadphase", palette.FCL, 7), ("Bullet, collision world", palette.OTHER, 9)),
+            "d and J": (ours, ("fcl::distance, no J", palette.FCL, 7), ("FCL's GJK, duality-gap stop, no J", palette.METHODS["FCL with gap stop"][0], 11),
+                        ("Bullet GJK, no J", palette.OTHER, 9))}
+    own = next(row["vertices"] for row in rows if row["varied"] == "pairs")
+    small_print = origin({**data, "command": "robot_bench --sizes"},
+                         [f"JVRC-1 in small steps. Left: its own bodies, {own:.0f} vertices on average. Right: ellipsoids in the boxes around them.", "FCL and Bullet: hulls, distances without J."])
+    entries = [(palette.SMOOTH, 7, "this library"), (palette.FCL, 7, "FCL: broadphase; fcl::distance"),
+               (palette.METHODS["FCL with gap stop"][0], 11, palette.METHODS["FCL with gap stop"][2]), (palette.OTHER, 9, "Bullet: world; GJK"),
+               (palette.NEUTRAL, 7, "line: verdicts, all pairs"), (palette.NEUTRAL, 6, "dashed, open: distances (and J)")]
+    text = panels(2, height, small_print, legend_rows=2) + legend(entries, height) + \
+        "set logscale xy\nset yrange [500:1e6]\nset ytics ('1k' 1e3, '10k' 1e4, '100k' 1e5, '1M' 1e6)\nset ylabel 'configurations a second' offset 1\n"
+    for varied, title in (("pairs", "number of pairs"), ("vertices", "vertices of each body, 130 pairs")):
+        at = sorted({row[varied] for row in rows if row["varied"] == varied})
+        text += f"set xrange [{0.75 * at[0]:g}:{1.35 * at[-1]:g}]\nset xtics ({', '.join(f'{x:g}' for x in at)})\nset xlabel '{title}'\n"
+        plots = []
+        for what, all_ways in ways.items():
+            for way, colour, mark in all_ways:
+                name = f"${varied}{len(plots)}"
+                text += block(name, [(row[varied], 1e6 / row["us"]) for row in rows if (row["varied"], row["what"], row["way"]) == (varied, what, way)])
+                look = f"pt {mark} dt 1" if what == "all pairs" else f"pt {mark - 1} dt 2"
+                plots.append(f"{name} using 1:2 with linespoints {look} ps 1 lw 2 lc rgb '{colour}'")
+        text += "plot " + ", ".join(plots) + "\n" + UNLABEL
+    found = {what: [row["ratio"] for row in rows if row["what"] == what and row["way"] == all_ways[1][0]] for what, all_ways in ways.items()}
+    draw("robot_size", "In small steps verdicts are {:.2g} to {:.2g} times as fast as FCL's, distances {:.2g} to {:.2g} times".format(
+        *(end for ratios in found.values() for end in (min(ratios), max(ratios)))), text + "unset multiplot\n", small_print, height)
+
+
+CHARTS = (speed_accuracy, size, solver_error, model_error, jump_test, collide, robot, robot_size)

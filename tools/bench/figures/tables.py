@@ -199,6 +199,17 @@ def robot():
     return markdown(("robot", "pairs", "what", "steps", "way", "a configuration", "times the first way's", "hits"), body)
 
 
+@table("robot_size")
+def robot_size():
+    rows = measured("robot_size")["rows"]
+    at = {(row["varied"], row[row["varied"]], row["what"], row["way"], row["steps"]): row["us"] for row in rows}
+    columns = list(dict.fromkeys(key[:2] for key in at))
+    heads = [f"{value:.0f} {varied}" for varied, value in columns]
+    return markdown(("µs a configuration, small / random steps", "way", *heads),
+                    [(what, way, *(" / ".join(f"{at[(*column, what, way, steps)]:.3g}" for steps in ("small", "random")) for column in columns))
+                     for what in ("all pairs", "d and J") for way in dict.fromkeys(row["way"] for row in rows if row["what"] == what)])
+
+
 @table("distance_soak")
 def distance_soak():
     _, lines = captured("distance_soak")

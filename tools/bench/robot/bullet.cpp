@@ -9,6 +9,9 @@
 #include "tools/bench/robot/peer.h"
 
 #ifdef FCL_STPBV_BULLET
+#include <BulletCollision/NarrowPhaseCollision/btGjkPairDetector.h>
+#include <BulletCollision/NarrowPhaseCollision/btPointCollector.h>
+#include <BulletCollision/NarrowPhaseCollision/btVoronoiSimplexSolver.h>
 #include <btBulletCollisionCommon.h>
 #endif
 
@@ -52,14 +55,7 @@ class Bullet : public Peer, private btOverlapFilterCallback {
 
   // The world checks all pairs at once, so it cannot stop at a first hit.
   long hits(const Eigen::Ref<const Eigen::VectorXd>& q, bool first) override {
-    robot_.kinematics->forwardPoses(q, state_);
-    for (std::size_t i = 0; i < objects_.size(); ++i) {
-      const Body& body = robot_.geometry->bodies[i];
-      const Eigen::Isometry3d pose = state_.link[at(body.link)] * body.pose;
-      btMatrix3x3 rotation;
-      for (int row = 0; row < 3; ++row) rotation[row] = toBullet(Eigen::Vector3d(pose.linear().row(row)));
-      objects_[i]->setWorldTransform(btTransform(rotation, toBullet(Eigen::Vector3d(pose.translation()))));
-    }
+    place(q);
     world_.performDiscreteCollisionDetection();
     long meet = 0;
     for (int i = 0; i < dispatcher_.getNumManifolds(); ++i) {
@@ -72,7 +68,34 @@ class Bullet : public Peer, private btOverlapFilterCallback {
     return first ? std::min(meet, 1L) : meet;
   }
 
+  long distances(const Eigen::Ref<const Eigen::VectorXd>& q) override {
+    place(q);
+    long meet = 0;
+    for (const CheckedPair& pair : robot_.pairs) {
+      btGjkPairDetector detector(shapes_[at(pair.body)].get(), shapes_[at(pair.other)].get(), &simplex_,
+                                 nullptr);
+      btGjkPairDetector::ClosestPointInput input;
+      input.m_transformA = objects_[at(pair.body)]->getWorldTransform();
+      input.m_transformB = objects_[at(pair.other)]->getWorldTransform();
+      btPointCollector result;
+      detector.getClosestPoints(input, result, nullptr);
+      meet += !result.m_hasResult;
+    }
+    return meet;
+  }
+
  private:
+  void place(const Eigen::Ref<const Eigen::VectorXd>& q) {
+    robot_.kinematics->forwardPoses(q, state_);
+    for (std::size_t i = 0; i < objects_.size(); ++i) {
+      const Body& body = robot_.geometry->bodies[i];
+      const Eigen::Isometry3d pose = state_.link[at(body.link)] * body.pose;
+      btMatrix3x3 rotation;
+      for (int row = 0; row < 3; ++row) rotation[row] = toBullet(Eigen::Vector3d(pose.linear().row(row)));
+      objects_[i]->setWorldTransform(btTransform(rotation, toBullet(Eigen::Vector3d(pose.translation()))));
+    }
+  }
+
   bool needBroadphaseCollision(btBroadphaseProxy* a, btBroadphaseProxy* b) const override {
     const auto indexOf = [](btBroadphaseProxy* proxy) {
       return at(static_cast<btCollisionObject*>(proxy->m_clientObject)->getUserIndex());
@@ -85,6 +108,7 @@ class Bullet : public Peer, private btOverlapFilterCallback {
   std::vector<std::vector<char>> isChecked_;
   std::vector<std::unique_ptr<btConvexHullShape>> shapes_;
   std::vector<std::unique_ptr<btCollisionObject>> objects_;
+  btVoronoiSimplexSolver simplex_;
   btDefaultCollisionConfiguration configuration_;
   btCollisionDispatcher dispatcher_{&configuration_};
   btDbvtBroadphase broadphase_;

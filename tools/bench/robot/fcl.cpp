@@ -49,18 +49,40 @@ class Fcl : public Peer {
     return meet;
   }
 
+  double leastDistance(const Eigen::Ref<const Eigen::VectorXd>& q) override {
+    place(q);
+    manager_.update();
+    LeastDistance query{&isChecked_, {}};
+    manager_.distance(&query, &Fcl::nearer);
+    return query.result.min_distance;
+  }
+
  private:
   struct Query {
     const std::vector<std::vector<char>>* isChecked;
     bool first;
     long hits;
   };
+  struct LeastDistance {
+    const std::vector<std::vector<char>>* isChecked;
+    fcl::DistanceResultd result;
+  };
+
+  static std::size_t indexOf(const fcl::CollisionObjectd* object) {
+    return reinterpret_cast<std::size_t>(object->getUserData());
+  }
+
+  // As FCL's own callback: stops at the first pair that meets.
+  static bool nearer(fcl::CollisionObjectd* a, fcl::CollisionObjectd* b, void* data, double& least) {
+    LeastDistance& query = *static_cast<LeastDistance*>(data);
+    if ((*query.isChecked)[indexOf(a)][indexOf(b)])
+      fcl::distance(a, b, fcl::DistanceRequestd(), query.result);
+    least = query.result.min_distance;
+    return least <= 0;
+  }
 
   static bool callback(fcl::CollisionObjectd* a, fcl::CollisionObjectd* b, void* data) {
     Query& query = *static_cast<Query*>(data);
-    const auto indexOf = [](fcl::CollisionObjectd* object) {
-      return reinterpret_cast<std::size_t>(object->getUserData());
-    };
     if (!(*query.isChecked)[indexOf(a)][indexOf(b)]) return false;
     fcl::CollisionResultd result;
     query.hits += fcl::collide(a, b, fcl::CollisionRequestd(), result) > 0;
