@@ -192,12 +192,13 @@ def collide(height=460):
 def robot(height=470):
     """Verdicts and distances of whole configurations, for the pairs of two robots."""
     asked = [(what, steps) for what in ("first hit", "all pairs", "d and J") for steps in ("small", "random")]
+    bullet = any(row["way"] == "Bullet GJK, no J" for row in measured("robot")["rows"])  # whether its distances were measured
     ways = (("fcl_stpbv", palette.SMOOTH, 7, "CollisionChecker; d and J: CollisionConstraints"),
             ("2 threads", palette.SECOND, 13, "their batch on 2 threads"),
             ("FCL, broadphase", palette.FCL, 7, "FCL's broadphase; d: fcl::distance, no J"),
-            ("Bullet, collision world", palette.OTHER, 9, "Bullet's collision world"))
+            ("Bullet, collision world", palette.OTHER, 9, "Bullet's collision world" + "; d: its GJK, no J" * bullet))
     distances = {"FCL, broadphase": "fcl::distance, no J", "Bullet, collision world": "Bullet GJK, no J"}
-    missing = "a batch of all pairs" if any(row["way"] == "Bullet GJK, no J" for row in measured("robot")["rows"]) else "a batch of all pairs, Bullet's distances"
+    missing = "a batch of all pairs" + ", Bullet's distances" * (not bullet)
     small_print = origin({**measured("robot"), "command": "robot_bench"}, [f"First hit and all pairs: collisions only; d and J: distances. Medians. Not made: {missing}."])
     text = panels(2, height, [*small_print, ""], legend_rows=2, panel_titles=True) + \
         legend([(colour, mark, name) for _, colour, mark, name in ways], height, columns=2) + \
