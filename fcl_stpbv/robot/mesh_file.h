@@ -20,9 +20,8 @@ namespace fcl_stpbv {
 /// if it states a unit. assimp stores single precision: a coordinate of 1 m is accurate to 0.06 um.
 ///
 /// A cloud gives its points without triangles, in double precision and without merging. It is a polyhedron or
-/// point file of qhull (`*-ch.txt`, `.otp`, `.qc`, `.cloud`), or a text with three coordinates a line
-/// (`.xyz`,
-/// `.pts`). Under a name without an ending it is recognised by its content.
+/// point file of qhull (`*-ch.txt`, `.otp`, `.qc`, `.cloud`), or a text with three coordinates a line as in
+/// `.xyz` and `.pts`. If the name has no ending, a cloud is recognised by its content.
 /// @throws Error naming the file and what would work.
 TriangleMesh loadMesh(const std::string& path, const Eigen::Vector3d& scale = {1, 1, 1});
 

@@ -1,6 +1,5 @@
 // How far each body's surface is from the mesh or primitive that it stands for: the excess of the hull over
 // the mesh's triangles (parts/mesh_solid.h), plus the over-cover of the volume over the hull.
-#include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/parts/mesh_solid.h"
 #include "fcl_stpbv/robot/link_geometry.h"
 #include "fcl_stpbv/robot/mesh_file.h"
