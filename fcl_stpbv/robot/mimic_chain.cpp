@@ -40,17 +40,21 @@ void MimicChains::tie(std::size_t joint) {
                  multiplier * ahead.offset + joints_[joint].offset};
 }
 
+std::string MimicChains::missing(std::size_t joint) {
+  follow(joint);
+  return state_[joint] == State::done ? joints_[at(end_[joint].joint)].mimics : "";
+}
+
 Mimic MimicChains::end(std::size_t joint) {
   follow(joint);
   if (state_[joint] != State::done) throw Error("mimics itself through others; break the loop");
-  const Follower& last = joints_[at(end_[joint].joint)];
-  if (!last.mimics.empty()) {
+  if (const std::string name = missing(joint); !name.empty()) {
     const auto known = [&] {
       std::vector<std::string> names;
       for (const Follower& each : joints_) names.push_back(each.joint);
       return names;
     };
-    throw Error("mimics '" + last.mimics + "', which does not exist" + proposals_.of(last.mimics, known));
+    throw Error("mimics '" + name + "', which does not exist" + proposals_.of(name, known));
   }
   return end_[joint];
 }

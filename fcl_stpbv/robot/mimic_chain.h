@@ -27,6 +27,9 @@ class MimicChains {
   /// @throws Error if the chain has no end. The message does not contain the joint's place.
   Mimic end(std::size_t joint);
 
+  /// The name at the joint's chain's end, if no joint has it; "" if one has, or if the chain is a loop.
+  std::string missing(std::size_t joint);
+
  private:
   enum class State { open, entered, done };
 

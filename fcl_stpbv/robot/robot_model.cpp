@@ -163,8 +163,9 @@ void readJoints(const UrdfTree& tree, RobotModel& robot, LoadFaults& faults) {
   }
   MimicChains chains(followers);
   for (std::size_t j = 0; j < followers.size(); ++j) {
-    if (!followers[j].mimics.empty())
-      gather(places[j], [&] { setMimic(chains.end(j), static_cast<int>(j), robot); });
+    // The faults of a joint that is not here are reported already.
+    if (followers[j].mimics.empty() || tree.jointNames.count(chains.missing(j)) > 0) continue;
+    gather(places[j], [&] { setMimic(chains.end(j), static_cast<int>(j), robot); });
   }
   widenFollowed(robot.joints);
 }

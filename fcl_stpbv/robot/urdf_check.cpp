@@ -1,8 +1,6 @@
 // The tree of links and joints by name: one root, one parent each, no loop; returned in tree order.
 #include "fcl_stpbv/robot/urdf_check.h"
 
-#include <unordered_set>
-
 #include "fcl_stpbv/robot/near_name.h"
 #include "fcl_stpbv/robot/xml_text.h"
 
@@ -137,6 +135,7 @@ UrdfTree readTree(const XMLElement& robot, const std::string& path, LoadFaults& 
     LoadFaults::gather(faults.errors, [&] { order = inTreeOrder(tree, path); });
   UrdfTree checked;
   checked.joints = tree.joints;
+  checked.jointNames = tree.jointNames;
   for (const std::string& link : order) {
     checked.index[link] = static_cast<int>(checked.links.size());
     checked.links.push_back(tree.known.at(link));

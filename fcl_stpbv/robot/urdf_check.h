@@ -5,6 +5,7 @@
 
 #include <string>
 #include <unordered_map>
+#include <unordered_set>
 #include <vector>
 
 #include "fcl_stpbv/robot/robot_model.h"
@@ -15,6 +16,7 @@ struct UrdfTree {
   std::vector<const tinyxml2::XMLElement*> links;   ///< parents before their children
   std::vector<const tinyxml2::XMLElement*> joints;  ///< in the order of the file
   std::unordered_map<std::string, int> index;       ///< index of each link, by name
+  std::unordered_set<std::string> jointNames;       ///< of all joints, including those that have faults
 };
 
 /// Reads the tree. Faults are added to `faults.errors`, each naming the line and the link or joint. With

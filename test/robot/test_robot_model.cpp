@@ -115,6 +115,23 @@ TEST_CASE("a mimic joint that cannot follow is refused by what it is tied to") {
         Contains("joint 'k'") && Contains("mimics 'j', expected a joint that moves along or about one axis"));
 }
 
+TEST_CASE("the fault of a joint is not reported again as a fault of those that mimic it") {
+  const std::string links = link("a") + link("b") + link("c") + link("d");
+  const std::string followers = joint("k", "revolute", "b", "c", "<mimic joint=\"j\"/>") +
+                                joint("m", "revolute", "c", "d", "<mimic joint=\"k\"/>");
+  const auto check = [&](const std::string& leader, const std::string& fault) {
+    const std::string message = refused(robot(links + leader + followers));
+    CHECK_THAT(message, Contains(fault));
+    CHECK_THAT(message, !Contains("does not exist") && !Contains("joint 'k'") && !Contains("joint 'm'"));
+  };
+  check(
+      "<joint name=\"j\" type=\"revolute\"><parent link=\"a\"/><child link=\"b\"/><axis xyz=\"0 0 1\"/>"
+      "<limit lower=\"1\" upper=\"-1\" effort=\"1\" velocity=\"1\"/></joint>",
+      "joint 'j': its limits must be finite");
+  check(joint("j", "bendy", "a", "b"), "'bendy'");
+  check(joint("j", "revolute", "z", "b"), "no link 'z'");
+}
+
 TEST_CASE("what cannot be a robot is refused with a reason") {
   const std::string ab = link("a") + link("b");
   CHECK_THAT(refused("hello"), Contains("small.urdf"));
