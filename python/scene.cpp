@@ -7,6 +7,7 @@
 #include "fcl_stpbv/robot/checked_pairs.h"
 #include "fcl_stpbv/robot/near_name.h"
 #include "interrupt.h"
+#include "words.h"
 
 namespace fcl_stpbv {
 namespace {
@@ -109,7 +110,8 @@ std::shared_ptr<const RobotGeometry> PythonScene::modelFor(const std::vector<Nee
   how.threads = threads;
   Interrupt interrupt;
   how.progress = [&](std::size_t, std::size_t, const std::string&) { interrupt(); };
-  const SceneModel model = modelForScene(kinematics, levels, obstacles, needs, how);
+  const SceneModel model =
+      inPythonsWords([&] { return modelForScene(kinematics, levels, obstacles, needs, how); });
   unmet.clear();
   for (std::size_t i = 0; i < needs.size() && unmet.size() < model.unmet.size(); ++i) {
     const SceneNeed& next = model.unmet[unmet.size()];  // the unmet needs are in the order of the needs

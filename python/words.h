@@ -17,7 +17,8 @@ auto inPythonsWords(const Work& work) {
       {"barrierGain", "barrier_gain"},
       {"the constraints a larger influence, exactUpTo or hand-over",
        "the Robot a larger influence, exact_up_to or hand_over"},
-      {"bothRound", "both_round"}};
+      {"bothRound", "both_round"},
+      {"modelForScene: ", ""}};
   try {
     return work();
   } catch (const Error& error) {

@@ -59,7 +59,8 @@ struct GeometryOptions {
 /// One shape of one link.
 struct Body {
   int link = -1;  ///< index into RobotModel::links
-  /// The link's name, with #2, #3 ... for its second, third ... shape.
+  /// The link's name, with #2, #3 ... for its second, third ... shape, and :1, :2 ... for the parts of a
+  /// shape.
   std::string name;
   /// Pose in the link's frame; its rotation is exact up to rounding.
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();

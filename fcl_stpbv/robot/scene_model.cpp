@@ -20,7 +20,7 @@ void requireNeeds(const std::vector<SceneNeed>& needs, const Kinematics& kinemat
   for (std::size_t i = 0; i < needs.size(); ++i) {
     const SceneNeed& need = needs[i];
     const auto refuse = [&](const std::string& why) {
-      throw Error("modelForScene: need " + std::to_string(i) + " " + why);
+      throw Error("modelForScene: needs[" + std::to_string(i) + "]: " + why);
     };
     const int others = need.pair.obstacle ? static_cast<int>(obstacles) : links;
     if (need.pair.link1 < 0 || need.pair.link1 >= links || need.pair.link2 < 0 || need.pair.link2 >= others)

@@ -527,8 +527,10 @@ def test_a_robot_is_as_fine_as_its_needs_ask_for(hook):
     (hook / "block.urdf").write_text((hook / "post.urdf").read_text().replace("link name='post'", "link name='block'"))
     with pytest.raises(fcl_stpbv.Error, match=r'needs\[0\]: "block" is a link and an obstacle'):
         fcl_stpbv.Robot(*files[:2], hook / "block.urdf", r=0.001).model_for([("l", "block", q, 0.0)])
-    with pytest.raises(fcl_stpbv.Error, match="need 0 must have a configuration of 1 finite numbers"):
+    with pytest.raises(fcl_stpbv.Error, match=r"^needs\[0\]: must have a configuration of 1 finite numbers$"):
         hulls.model_for([("l", "block", [0.0, 0.0], 0.0)])
+    with pytest.raises(fcl_stpbv.Error, match=r"^needs\[1\]: has a clearance that is not finite$"):
+        hulls.model_for([("l", "block", q, 0.0), ("l", "block", q, np.nan)])
     with pytest.raises(TypeError):
         hulls.model_for([("l", "block")])  # type: ignore[list-item]
 
