@@ -68,7 +68,12 @@ struct type_caster<fcl_stpbv::Floats<Matrix>> {
         return true;
       }
     make_caster<Matrix> inner;
-    if (!inner.load(numbers, true)) return false;
+    if (!inner.load(numbers, true)) {
+      if (Matrix::RowsAtCompileTime == Eigen::Dynamic && Matrix::ColsAtCompileTime == 1 && numbers.ndim() > 1)
+        throw type_error("got an array of shape " + std::string(str(numbers.attr("shape"))) +
+                         ", expected a 1-D one; distances_many, evaluate_many and collides_many take many q");
+      return false;
+    }
     value.value = cast_op<Matrix>(std::move(inner));
     return true;
   }

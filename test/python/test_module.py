@@ -436,6 +436,18 @@ def test_arrays_that_are_not_of_floats_are_refused_by_their_type(kind):
             ask()
 
 
+def test_many_configurations_where_one_is_expected_are_refused_with_what_takes_many(hook):
+    robot = fcl_stpbv.Robot(hook / "hook.urdf", hook / "hook.srdf", r=0.001)
+    damper = fcl_stpbv.VelocityDamper(robot)
+    many, one = np.zeros((3, 2)), np.zeros(1)
+    for ask in (lambda q: robot.distances(q), lambda q: robot.evaluate(q), lambda q: robot.collides(q), lambda q: damper.update(q, one),
+                lambda q: damper.update(one, q), lambda q: robot.rates(one, q), lambda q: robot.model_for([("l", "block", q, 0.0)])):
+        for given in (many, many.tolist()):
+            with pytest.raises(TypeError, match=r"^got an array of shape \(3, 2\), expected a 1-D one; distances_many, .* take many q$"):
+                ask(given)
+    assert robot.distances_many(np.zeros((3, 1))).shape == (3, len(robot.rows))
+
+
 def test_masked_arrays_are_refused_as_their_masks_would_be_lost():
     with pytest.raises(TypeError, match="filled"):
         fcl_stpbv.StpBv.build(np.ma.masked_array(BOX, mask=BOX > 1))
