@@ -9,7 +9,11 @@ ContactAcceleration contactAcceleration(const Radii& body1, const Radii& body2, 
                                         double turning) {
   const double least = turning > 0 ? -body2.R * turning * turning : 0;
   const double sum = distance + body1.r + body2.r, rest = distance + body1.r;
-  if (!(sum > 0)) return {least, speed > 0 ? detail::kInfinity : 0};
+  if (!(sum > 0)) {
+    // At sum = 0 this is the limit of the formula below; from deeper overlaps nothing follows.
+    const bool bounded = !(speed > 0) && (!(turning > 0) || (sum == 0 && body2.r == 0));
+    return {least, bounded ? 0 : detail::kInfinity};
+  }
   // The largest value of (speed + r y)^2 / sum - r y^2 over all y up to `turning`. The formulas below avoid
   // this difference, because with a large r it would consist of rounding only.
   if (speed < turning * rest) return {least, speed * speed / rest};

@@ -33,7 +33,8 @@ struct ContactAcceleration {
 /// - the velocity of body 2 at its witness point, perpendicular to the normal, is at most `speed` (m/s);
 /// - the angular velocity of body 2, perpendicular to the normal, is at most `turning` (rad/s).
 ///
-/// A bound is infinite if c is unbounded.
+/// A bound is infinite if c is unbounded. For a `distance` of -(r1 + r2) or less, `most` is infinite if
+/// body 2 moves, except at -(r1 + r2) if it only turns and r2 = 0.
 ContactAcceleration contactAcceleration(const Radii& body1, const Radii& body2, double distance, double speed,
                                         double turning);
 

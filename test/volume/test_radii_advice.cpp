@@ -139,8 +139,18 @@ TEST_CASE("two balls that slide, and a big face that rocks over a plane, reach t
   CHECK_FALSE(std::signbit(contactAcceleration(kFlatRadii, small, 0.01, 0, 0).size()));
   for (const double r : {0.0, 0.01, 1e8})  // where the normal follows the slide, r has no influence
     CHECK(contactAcceleration(kFlatRadii, {r, 1e8, 1e8 - r}, 0.1, 0.067, 1.3).most == 0.067 * 0.067 / 0.1);
-  CHECK(contactAcceleration(kFlatRadii, kFlatRadii, 0, 1, 1).size() ==
-        std::numeric_limits<double>::infinity());
+  constexpr double kNone = std::numeric_limits<double>::infinity();
+  CHECK(contactAcceleration(kFlatRadii, kFlatRadii, 0, 1, 1).size() == kNone);
+  // Spheres of the radii r that meet at their centres: turning alone is enough, unless the radius is 0.
+  const Radii quarter{0.25, 1, 0.75}, half{0.5, 1, 0.5}, sharp{0, 1, 1};
+  for (const double below : {0.0, 1e-3}) {
+    CHECK(contactAcceleration(quarter, half, -0.75 - below, 0, 1).most == kNone);
+    CHECK(contactAcceleration(quarter, half, -0.75 - below, 1, 0).most == kNone);
+    CHECK(contactAcceleration(quarter, half, -0.75 - below, 0, 0).most == 0);
+  }
+  CHECK(contactAcceleration(quarter, sharp, -0.25, 0, 1).most == 0);
+  CHECK(contactAcceleration(quarter, sharp, -0.25 + 1e-9, 0, 1).most == 0);
+  CHECK(contactAcceleration(quarter, half, -0.75 + 1e-9, 0, 1).most > 1e8);
 }
 
 TEST_CASE("advised radii keep the stated clearance and the allowed acceleration, on any body") {
