@@ -1,5 +1,5 @@
-// Follows the pairs of bodies along a trajectory, reads off where each pair of links is closest, and places the
-// pair there.
+// Follows the pairs of bodies along a trajectory, reads off where each pair of links is closest, and places
+// the pair there.
 #include "fcl_stpbv/report/along_trajectory.h"
 
 #include <algorithm>
