@@ -7,7 +7,7 @@
 
 #include "fcl_stpbv/adapter/hull_geometry.h"
 #include "fcl_stpbv/numbers.h"
-#include "fcl_stpbv/robot/mesh_file.h"
+#include "fcl_stpbv/robot/keyed_mesh.h"
 #include "fcl_stpbv/robot/triangle_tree.h"
 
 namespace fcl_stpbv::report {
@@ -38,7 +38,7 @@ ExactBody::ExactBody(const Body& body) {
     partPoints_ = {Vector3d::Zero()};  // FCL's primitives are centred on their frames
     return;
   }
-  const TriangleMesh mesh = loadMesh(body.file, body.scale);
+  const TriangleMesh mesh = KeyedMesh(body).mesh();
   hull_ = hullGeometry(mesh.vertices);
   if (mesh.triangles.empty()) {
     shape_ = hull_;

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "fcl_stpbv/parts/mesh_solid.h"
-#include "fcl_stpbv/robot/shape_source.h"
+#include "fcl_stpbv/robot/keyed_mesh.h"
 
 namespace fcl_stpbv::report {
 

@@ -14,6 +14,7 @@
 #include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/report/digest.h"
 #include "fcl_stpbv/report/mesh_fit.h"
+#include "fcl_stpbv/robot/keyed_mesh.h"
 
 namespace fcl_stpbv::report {
 
@@ -37,8 +38,8 @@ void PairCauses::use(std::shared_ptr<const RobotGeometry> robot) {
 const ExactBody& PairCauses::exact(const Body& body) {
   const Body& whole = body.partOf < 0 ? body : robot_->bodies[at(body.partOf)];
   const auto& shape = whole.primitive ? whole.primitive : whole.geometry;
-  std::unique_ptr<ExactBody>& place = exact_[{whole.file, whole.scale.x(), whole.scale.y(), whole.scale.z(),
-                                              whole.file.empty() ? shape.get() : nullptr}];
+  std::unique_ptr<ExactBody>& place =
+      exact_[{whole.file.empty() ? "" : meshKey(whole), whole.file.empty() ? shape.get() : nullptr}];
   if (!place) place = std::make_unique<ExactBody>(whole);
   return *place;
 }

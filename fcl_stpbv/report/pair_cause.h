@@ -5,7 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <tuple>
+#include <utility>
 #include <vector>
 
 #include "fcl_stpbv/report/mesh_distance.h"
@@ -63,7 +63,7 @@ class PairCauses {
   detail::VolumeCache* cache_;
   std::map<const Body*, std::string> digests_;  // of contentOf() of the bodies in robot_ and scene_
   // Key: file and scale, or the primitive itself.
-  std::map<std::tuple<std::string, double, double, double, const void*>, std::unique_ptr<ExactBody>> exact_;
+  std::map<std::pair<std::string, const void*>, std::unique_ptr<ExactBody>> exact_;  // by mesh, or primitive
   std::map<const Body*, std::shared_ptr<const fcl::CollisionGeometryd>> partHulls_;
 };
 

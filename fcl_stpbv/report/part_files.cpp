@@ -15,7 +15,7 @@
 #include "fcl_stpbv/report/digest.h"
 #include "fcl_stpbv/report/kept_folder.h"
 #include "fcl_stpbv/report/report_formats.h"
-#include "fcl_stpbv/robot/mesh_file.h"
+#include "fcl_stpbv/robot/keyed_mesh.h"
 
 namespace fcl_stpbv::report {
 
@@ -140,15 +140,16 @@ void PartFiles::addVolume(const Body& body, const std::string& name, ordered_jso
 }
 
 void PartFiles::addMesh(const Body& body, ordered_json& entry, std::vector<std::string>& meshes) {
+  const KeyedMesh source(body);
   entry["mesh"] = body.file;
-  entry["mesh_sha256"] = sha256(readText(body.file));
+  entry["mesh_sha256"] = sha256(source.text());
   entry["scale"] = {body.scale.x(), body.scale.y(), body.scale.z()};
   const std::vector<const Body*> parts = partsOf(static_cast<int>(&body - report_.geometry->bodies.data()));
   double hull = 0, open = 0, cover = 0;
   for (std::size_t k = 0; k < std::max<std::size_t>(1, parts.size()); ++k) {
     const std::string file = fileName(parts.size() > 1 ? body.name + "_" + std::to_string(k) : body.name);
     const std::string mesh = "meshes/" + file + ".obj";
-    files_[mesh] = objOf(parts.empty() ? loadPoints(body.file, body.scale) : parts[k]->hull);
+    files_[mesh] = objOf(parts.empty() ? source.mesh().vertices : parts[k]->hull);
     meshes.push_back(conversion_.meshPrefix + mesh);
     const Body& smooth = parts.size() > 1 ? *parts[k] : body;
     ordered_json part{{"collision", mesh}};

@@ -1,7 +1,8 @@
 // 1. computes the key of the inputs: their SHA-256 and the options. If the folder has that key, there is
 //    nothing to do;
 // 2. makes the report, with the links split for all their pairs (collision_report.h);
-// 3. writes the files (part_files.h), all at once.
+// 3. computes the key again: no input may have changed meanwhile;
+// 4. writes the files (part_files.h), all at once.
 #include "fcl_stpbv/report/robot_conversion.h"
 
 #include <algorithm>
@@ -14,6 +15,7 @@
 #include "fcl_stpbv/report/digest.h"
 #include "fcl_stpbv/report/kept_folder.h"
 #include "fcl_stpbv/report/part_files.h"
+#include "fcl_stpbv/robot/passing_error.h"
 
 namespace fcl_stpbv::report {
 namespace {
@@ -95,6 +97,25 @@ ordered_json inputsOf(const RobotConversion& conversion, std::vector<std::string
   return inputs;
 }
 
+// The report reads the inputs again after their key was computed. If one was saved meanwhile, the folder
+// would be up to date with a file that it was not made from.
+void requireUnchanged(const ordered_json& before, const ordered_json& after, const CollisionReport& report) {
+  const auto refuse = [](const std::string& file) {
+    throw PassingError(file + ": changed while it was read; run again");
+  };
+  for (const char* what : {"urdf", "srdf", "obstacles"})
+    if (before.contains(what) && before[what] != after[what]) refuse(before[what]["file"]);
+  const ordered_json meshes = before.value("meshes", ordered_json::array());
+  const ordered_json again = after.value("meshes", ordered_json::array());
+  for (std::size_t i = 0; i < meshes.size(); ++i)
+    if (i >= again.size() || meshes[i] != again[i]) refuse(meshes[i][0]);
+  for (const Body& body : report.geometry->bodies)
+    if (!body.file.empty() &&
+        std::count(meshes.begin(), meshes.end(), ordered_json{body.file, body.meshKey}) == 0)
+      refuse(body.file);
+  if (before != after) refuse(before["urdf"]["file"]);
+}
+
 }  // namespace
 
 ConversionResult convertRobot(const RobotConversion& conversion) {
@@ -121,6 +142,7 @@ ConversionResult convertRobot(const RobotConversion& conversion) {
   const FolderFiles files = output.make(inputs, key);
   // The report took a while. Meanwhile no file of the user may have come into the folder.
   keyOfFolder(conversion.folder, read, conversion.force);
+  requireUnchanged(inputs, inputsOf(conversion, read), report);
   atomicWriteFolder(conversion.folder, files);
   result.warnings = report.warnings;
   result.skipped = report.skipped;

@@ -17,7 +17,6 @@
 #include <utility>
 
 #include "fcl_stpbv/error.h"
-#include "fcl_stpbv/io/text_scanner.h"
 #include "fcl_stpbv/robot/mesh_format.h"
 #include "fcl_stpbv/robot/readable_files.h"
 #include "fcl_stpbv/vector_hash.h"
@@ -161,16 +160,15 @@ double outlinedArea(const aiScene& scene) {
   return sum;
 }
 
-// `content` is null if the mesh is the file `path`. `far` receives the largest number within the nodes'
-// transforms, if the format's check computes it (m).
+// `text` is the content of the file `path`, or of no file if it is `inMemory`. `far` receives the largest
+// number within the nodes' transforms, if the format's check computes it (m).
 const aiScene& read(Assimp::Importer& importer, ReadableFiles& files, const std::string& path,
-                    const std::string* content, double& far) {
-  const std::string own = content ? "" : readText(path), &text = content ? *content : own;
-  if (content && text.empty()) throw Error(path + ": is empty; give a whole file of " + kReadable);
+                    const std::string& text, bool inMemory, double& far) {
+  if (inMemory && text.empty()) throw Error(path + ": is empty; give a whole file of " + kReadable);
   // assimp's name for what is in memory, with the ending of its format
-  const std::string ending = content ? formatByContent(text) : "",
+  const std::string ending = inMemory ? formatByContent(text) : "",
                     alias = AI_MEMORYIO_MAGIC_FILENAME + ending;
-  const std::string expected = expectedFormat(text, content ? alias : path);
+  const std::string expected = expectedFormat(text, inMemory ? alias : path);
   const auto check = [&](const std::string& format) {
     far = checkMeshFormat(text, format, path, [&files](const std::string& part) { return files.part(part); });
   };
@@ -180,7 +178,7 @@ const aiScene& read(Assimp::Importer& importer, ReadableFiles& files, const std:
   importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
   const char* const hint = ending.empty() ? "" : ending.c_str() + 1;  // without its dot
   const aiScene* scene =
-      content ? importer.ReadFileFromMemory(text.data(), text.size(), 0, hint) : importer.ReadFile(path, 0);
+      inMemory ? importer.ReadFileFromMemory(text.data(), text.size(), 0, hint) : importer.ReadFile(path, 0);
   if (scene != nullptr) {
     if (const std::string format = formatOf(*scene, importer); format != expected) check(format);
     checkFaces(*scene, path);
@@ -195,7 +193,7 @@ const aiScene& read(Assimp::Importer& importer, ReadableFiles& files, const std:
   if (scene == nullptr || scene->mRootNode == nullptr) {
     constexpr std::size_t kLongest = 200;  // characters; assimp may quote the file up to its end
     std::string why = importer.GetErrorString();
-    if (const std::size_t at = why.find(alias); content && at != std::string::npos)
+    if (const std::size_t at = why.find(alias); inMemory && at != std::string::npos)
       why.replace(at, alias.size() + (ending.empty() ? 1 : 0), path);  // with the dot for an ending
     if (why.size() > kLongest) why = why.substr(0, kLongest) + " ...";
     throw Error(path + ": cannot be read as a mesh (" + why + "); give a whole file of " + kReadable);
@@ -211,14 +209,14 @@ void requireSize(const std::vector<Vector3d>& points, bool several, const std::s
     throw Error(path + ": is smaller than 1e-9 m along each axis; give it the right unit or scale");
 }
 
-TriangleMesh readByAssimp(const std::string& path, const std::string* content, const Vector3d& scale,
-                          ChildLimits& limits) {
+TriangleMesh readByAssimp(const std::string& path, const std::string& text, bool inMemory,
+                          const Vector3d& scale, ChildLimits& limits) {
   Assimp::Importer importer;
-  if (content) limits.allow(content->size());
-  auto* const files = new ReadableFiles(content ? "" : path, limits);  // a content refers to no files
-  importer.SetIOHandler(files);                                        // the importer deletes `files`
+  // A mesh in memory refers to no files.
+  auto* const files = new ReadableFiles(inMemory ? "" : path, text, limits);
+  importer.SetIOHandler(files);  // the importer deletes `files`
   double far = 0;
-  const aiScene& scene = read(importer, *files, path, content, far);
+  const aiScene& scene = read(importer, *files, path, text, inMemory, far);
   Gatherer gatherer(path, scale);
   struct Open {
     const aiNode* node;

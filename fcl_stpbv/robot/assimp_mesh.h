@@ -10,11 +10,12 @@
 
 namespace fcl_stpbv::detail {
 
-/// loadMesh() of a mesh, or parseMesh() of `content` if it is not null; `path` is its name then. assimp does
-/// not check its input: a file may have counts that fill the memory, loops, or a nesting that overflows the
-/// stack. So call this only in a child process; `limits` are the limits of that process.
-TriangleMesh readByAssimp(const std::string& path, const std::string* content, const Eigen::Vector3d& scale,
-                          ChildLimits& limits);
+/// loadMesh() of a mesh, whose file has the content `text`. If the text is `inMemory`, it belongs to no file
+/// or to one whose name does not tell its format: the content tells it, and `path` is a name for messages.
+/// assimp does not check its input: a file may have counts that fill the memory, loops, or a nesting that
+/// overflows the stack. So call this only in a child process; `limits` are the limits of that process.
+TriangleMesh readByAssimp(const std::string& path, const std::string& text, bool inMemory,
+                          const Eigen::Vector3d& scale, ChildLimits& limits);
 
 /// Checks that a body has not collapsed to a point by scaling; it would wrongly be reported as clear.
 /// `several`: the points were distinct before scaling. @throws Error naming the file.

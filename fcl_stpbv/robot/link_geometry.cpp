@@ -20,8 +20,8 @@
 #include "fcl_stpbv/number_check.h"
 #include "fcl_stpbv/robot/geometry_steps.h"
 #include "fcl_stpbv/robot/link_volume.h"
-#include "fcl_stpbv/robot/mesh_file.h"
 #include "fcl_stpbv/robot/near_name.h"
+#include "fcl_stpbv/robot/passing_error.h"
 #include "fcl_stpbv/robot/share_out.h"
 #include "fcl_stpbv/robot/volume_cache.h"
 
@@ -75,6 +75,8 @@ class Builder {
     const auto build = [&](std::size_t i) {
       try {
         bodies[i] = bodyOf(shapes[i]);
+      } catch (const PassingError&) {
+        throw;
       } catch (const Error& error) {
         wrong[i] = shapes[i].shape->place + ": " + error.what();
       }
@@ -173,6 +175,8 @@ class Builder {
         makeHull(source.points(), body);
       else
         makeVolume(options_, link, source, cache_, body);
+    } catch (const PassingError&) {
+      throw;
     } catch (const Error& error) {
       throw namingFile(body.file, error);
     }

@@ -8,9 +8,10 @@
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/parts/convex_parts.h"
+#include "fcl_stpbv/robot/keyed_mesh.h"
 #include "fcl_stpbv/robot/link_geometry.h"
 #include "fcl_stpbv/robot/link_volume.h"
-#include "fcl_stpbv/robot/mesh_file.h"
+#include "fcl_stpbv/robot/passing_error.h"
 #include "fcl_stpbv/robot/shape_source.h"
 #include "fcl_stpbv/robot/share_out.h"
 #include "fcl_stpbv/robot/volume_cache.h"
@@ -89,6 +90,8 @@ class LinkParts::Store {
       int number = 0;
       for (const ConvexPart& part : parts.parts)
         bodies.push_back(partOf(whole, index, ++number, part, parts.pieces - parts.closedPieces));
+    } catch (const PassingError&) {
+      throw;
     } catch (const Error& error) {
       throw namingFile(whole.file, error);
     }
@@ -104,7 +107,7 @@ class LinkParts::Store {
       options.most = most;
       known.parts = cache_.parts(key, options, [&] {
         Mesh& file = entry(meshes_, key);
-        std::call_once(file.read, [&] { file.mesh = loadMesh(whole.file, whole.scale); });
+        std::call_once(file.read, [&] { file.mesh = KeyedMesh(whole.file, whole.scale, key).mesh(); });
         return file.mesh.triangles.empty() ? ConvexParts() : convexParts(file.mesh, options);
       });
     });

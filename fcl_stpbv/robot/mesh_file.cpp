@@ -14,6 +14,7 @@
 #include "fcl_stpbv/robot/assimp_mesh.h"
 #include "fcl_stpbv/robot/child_process.h"
 #include "fcl_stpbv/robot/file_ending.h"
+#include "fcl_stpbv/robot/keyed_mesh.h"
 #include "fcl_stpbv/robot/point_lines.h"
 #include "fcl_stpbv/words.h"
 
@@ -82,11 +83,11 @@ std::vector<T> take(std::string_view& bytes, const std::string& path) {
   return items;
 }
 
-// `content` is null if assimp shall read the file `path` itself.
-TriangleMesh byAssimp(const std::string& path, const std::string* content, const Vector3d& scale) {
+TriangleMesh byAssimp(const std::string& path, const std::string& text, bool inMemory,
+                      const Vector3d& scale) {
   TriangleMesh mesh;
   const std::string bytes = inChildProcess(path, [&](ChildLimits& limits) {
-    const TriangleMesh read = readByAssimp(path, content, scale, limits);
+    const TriangleMesh read = readByAssimp(path, text, inMemory, scale, limits);
     std::string all;
     append(all, read.vertices);
     append(all, read.triangles);
@@ -104,18 +105,24 @@ TriangleMesh byAssimp(const std::string& path, const std::string* content, const
 
 }  // namespace
 
-TriangleMesh loadMesh(const std::string& path, const Vector3d& scale) {
+std::string detail::meshText(const std::string& path, const Vector3d& scale) {
   checkReadable(path, scale);
+  return readText(path);
+}
+
+TriangleMesh detail::meshOf(const std::string& text, const std::string& path, const Vector3d& scale) {
   const std::string ending = lowerExtension(path);
-  const bool named = holds(kQhull, ending) || holds(kLines, ending);
-  if (!named && !ending.empty()) return byAssimp(path, nullptr, scale);
-  const std::string text = readText(path);
-  return named || isCloud(text) ? cloudOf(text, ending, path, scale) : byAssimp(path, &text, scale);
+  const bool cloud = holds(kQhull, ending) || holds(kLines, ending) || (ending.empty() && isCloud(text));
+  return cloud ? cloudOf(text, ending, path, scale) : byAssimp(path, text, ending.empty(), scale);
+}
+
+TriangleMesh loadMesh(const std::string& path, const Vector3d& scale) {
+  return meshOf(meshText(path, scale), path, scale);
 }
 
 TriangleMesh parseMesh(const std::string& content, const std::string& name, const Vector3d& scale) {
   checkScale(name, scale);
-  return isCloud(content) ? cloudOf(content, "", name, scale) : byAssimp(name, &content, scale);
+  return isCloud(content) ? cloudOf(content, "", name, scale) : byAssimp(name, content, true, scale);
 }
 
 std::vector<Vector3d> loadPoints(const std::string& path, const Vector3d& scale) {

@@ -5,7 +5,7 @@
 #include "fcl_stpbv/adapter/fcl_distance.h"
 #include "fcl_stpbv/adapter/hull_geometry.h"
 #include "fcl_stpbv/numbers.h"
-#include "fcl_stpbv/robot/mesh_file.h"
+#include "fcl_stpbv/robot/keyed_mesh.h"
 #include "fcl_stpbv/robot/triangle_tree.h"
 
 namespace fcl_stpbv::detail {
@@ -23,7 +23,7 @@ const fcl::CollisionGeometryd& OwnShapes::shape(int body) {
   const Body& whole = whole_->bodies[at(body)];
   shape = whole.primitive ? whole.primitive : whole.geometry;
   if (whole.file.empty()) return *shape;
-  const TriangleMesh mesh = loadMesh(whole.file, whole.scale);
+  const TriangleMesh mesh = KeyedMesh(whole).mesh();
   shape = mesh.triangles.empty() ? hullGeometry(mesh.vertices) : triangleTree(mesh.vertices, mesh.triangles);
   return *shape;
 }

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <assimp/DefaultIOSystem.h>
+#include <assimp/MemoryIOWrapper.h>
 
+#include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
-#include <set>
 #include <string>
 
 #include "fcl_stpbv/io/text_scanner.h"
@@ -16,26 +18,30 @@
 namespace fcl_stpbv::detail {
 
 /// Opens only the mesh and, for glTF, the regular files with its vertices, beside the mesh or in folders
-/// below it. It opens no other files that a mesh may refer to, no materials, pipes or devices. It raises the
-/// limits of the child process in proportion to the files' sizes.
+/// below it. It opens no other files that a mesh may refer to, no materials, pipes or devices. Each file is
+/// read once, so that what was checked is what assimp reads, even if somebody saves the file meanwhile. It
+/// raises the limits of the child process in proportion to the files' sizes.
 class ReadableFiles : public Assimp::DefaultIOSystem {
  public:
-  ReadableFiles(const std::string& mesh, ChildLimits& limits) : mesh_(mesh), limits_(limits) {}
+  /// `text`, the content of the mesh's file, must outlive this object.
+  ReadableFiles(const std::string& mesh, const std::string& text, ChildLimits& limits)
+      : mesh_(mesh), text_(text), limits_(limits) {
+    limits_.allow(text.size());
+  }
 
   bool Exists(const char* path) const override { return !found(path).empty(); }
-  Assimp::IOStream* Open(const char* path, const char* mode) override {
+  Assimp::IOStream* Open(const char* path, const char* /*mode*/) override {
     const std::string file = found(path);
     if (file.empty()) return nullptr;
-    allow(file);
-    return DefaultIOSystem::Open(file.c_str(), mode);
+    const std::string& bytes = bytesOf(file);
+    return new Assimp::MemoryIOStream(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());
   }
 
   /// A file that the mesh names, in the place where assimp looks for it.
   std::optional<std::string> part(const std::string& name) {
     const std::string file = found(folder() + name);
     if (file.empty()) return std::nullopt;
-    allow(file);
-    return readText(file);
+    return bytesOf(file);
   }
 
  private:
@@ -52,12 +58,16 @@ class ReadableFiles : public Assimp::DefaultIOSystem {
 
   bool mayRead(const std::string& path) const {
     std::error_code ignored;
-    return std::filesystem::is_regular_file(path, ignored) && (path == mesh_ || isPart(path));
+    return path == mesh_ || (std::filesystem::is_regular_file(path, ignored) && isPart(path));
   }
 
-  void allow(const std::string& path) {
+  const std::string& bytesOf(const std::string& path) {
+    if (path == mesh_) return text_;
+    const auto known = parts_.find(path);
+    if (known != parts_.end()) return known->second;
     std::error_code ignored;
-    if (seen_.insert(path).second) limits_.allow(std::filesystem::file_size(path, ignored));
+    limits_.allow(std::filesystem::file_size(path, ignored));
+    return parts_.emplace(path, readText(path)).first->second;
   }
 
   bool isPart(const std::string& path) const {
@@ -75,8 +85,9 @@ class ReadableFiles : public Assimp::DefaultIOSystem {
   }
 
   const std::string mesh_;
+  const std::string& text_;
   ChildLimits& limits_;
-  std::set<std::string> seen_;
+  std::map<std::string, std::string> parts_;  // map entries do not move: assimp reads them in place
 };
 
 }  // namespace fcl_stpbv::detail

@@ -1,15 +1,12 @@
 // The shapes of a robot before volumes are built: selects them, and finds and reads each mesh file once.
 #include "fcl_stpbv/robot/shape_source.h"
 
-#include <strings.h>
-
 #include <algorithm>
 
 #include "fcl_stpbv/error.h"
-#include "fcl_stpbv/io/text_scanner.h"
-#include "fcl_stpbv/robot/mesh_file.h"
+#include "fcl_stpbv/robot/keyed_mesh.h"
 #include "fcl_stpbv/robot/package_path.h"
-#include "fcl_stpbv/robot/volume_cache.h"
+#include "fcl_stpbv/robot/passing_error.h"
 
 namespace fcl_stpbv::detail {
 namespace {
@@ -88,10 +85,14 @@ class Reader {
     try {
       if (source.shape->kind == ShapeModel::Kind::mesh) {
         source.file = paths_.resolve(source.shape->mesh);
-        source.key = meshKey(source.file, source.shape->scale);
-        if (!isCached(robot_.links[static_cast<std::size_t>(source.link)].name, source.key)) source.points();
+        const KeyedMesh mesh(source.file, source.shape->scale);
+        source.key = mesh.key();
+        if (!isCached(robot_.links[static_cast<std::size_t>(source.link)].name, source.key))
+          source.keep(mesh);
       }
       sources_.shapes.push_back(std::move(source));
+    } catch (const PassingError&) {
+      throw;
     } catch (const Error& error) {
       faults_.shapes.push_back(source.shape->place + ": " + error.what());
       sources_.incomplete.insert(source.link);
@@ -111,37 +112,17 @@ Error namingFile(const std::string& file, const Error& error) {
   return Error(message.find(file) != std::string::npos ? message : file + ": " + message);
 }
 
-// The digest of the file's bytes. For glTF, which may store its vertices in other files, it is the digest of
-// the mesh's vertices and triangles.
-std::string meshKey(const std::string& file, const Eigen::Vector3d& scale) {
-  std::string key;
-  appendVector(key, scale);
-  key += ' ';
-  const bool several = file.size() > 5 && ::strcasecmp(file.c_str() + file.size() - 5, ".gltf") == 0;
-  if (!several) return key + digestOf(readText(file));
-  const TriangleMesh mesh = loadMesh(file, scale);
-  std::string content;
-  for (const Eigen::Vector3d& p : mesh.vertices) {
-    appendVector(content, p);
-    content += '\n';
-  }
-  for (const auto& [a, b, c] : mesh.triangles)
-    content += std::to_string(a) + ' ' + std::to_string(b) + ' ' + std::to_string(c) + '\n';
-  return key + digestOf(content);
-}
-
-std::string meshKey(const Body& body) {
-  return body.meshKey.empty() ? meshKey(body.file, body.scale) : body.meshKey;
-}
-
 const std::vector<Eigen::Vector3d>& ShapeSource::points() const {
-  if (!points_.empty()) return points_;
-  points_ = loadPoints(file, shape->scale);
+  if (points_.empty()) keep(KeyedMesh(file, shape->scale, key));
+  return points_;
+}
+
+void ShapeSource::keep(const KeyedMesh& mesh) const {
+  points_ = mesh.mesh().vertices;
   constexpr double kMost = 1e6;  // larger than any robot (m)
   for (const Eigen::Vector3d& p : points_)
     if (!(p.lpNorm<Eigen::Infinity>() <= kMost))
       throw Error(file + ": its scaled coordinates must be finite, and within 1e6 m");
-  return points_;
 }
 
 ShapeSources readShapes(const RobotModel& robot, bool visual, const std::vector<std::string>& packagePath,

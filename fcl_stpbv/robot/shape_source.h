@@ -13,15 +13,10 @@
 
 namespace fcl_stpbv::detail {
 
+class KeyedMesh;
+
 /// The error, with the file's name before its message unless the message contains it already.
 Error namingFile(const std::string& file, const Error& error);
-
-/// The key of a mesh in the cache (volume_cache.h): a digest of the file's content and of the scale.
-/// @throws Error naming the file.
-std::string meshKey(const std::string& file, const Eigen::Vector3d& scale);
-
-/// The key of a body's mesh. The file is read only if the key is not known yet.
-std::string meshKey(const Body& body);
 
 /// One shape of one link, and the file of a mesh.
 struct ShapeSource {
@@ -29,10 +24,13 @@ struct ShapeSource {
   int number = 1;  ///< number among the link's shapes, from 1
   const ShapeModel* shape = nullptr;
   std::string file;  ///< "" for a primitive
-  std::string key;   ///< meshKey(); "" for a primitive
+  std::string key;   ///< of the mesh (keyed_mesh.h); "" for a primitive
 
-  /// The mesh's points, scaled. They are read at the first call and kept. @throws Error naming the file.
+  /// The mesh's points, scaled. They are read at the first call and kept. @throws Error naming the file, also
+  /// if it does not have the key any more.
   const std::vector<Eigen::Vector3d>& points() const;
+  /// Keeps the points of the mesh that gave the key. @throws Error naming the file.
+  void keep(const KeyedMesh& mesh) const;
 
  private:
   mutable std::vector<Eigen::Vector3d> points_;

@@ -10,9 +10,11 @@
 #include "fcl_stpbv/report/mesh_distance.h"
 #include "fcl_stpbv/report/mesh_fit.h"
 #include "fcl_stpbv/robot/constraints.h"
+#include "fcl_stpbv/robot/link_geometry.h"
 #include "fcl_stpbv/robot/mesh_file.h"
 #include "fcl_stpbv/volume/tessellate.h"
 #include "test/reference/shapes.h"
+#include "test/reference/solids.h"
 #include "test/reference/volume_files.h"
 #include "test/robot/urdf_texts.h"
 
@@ -347,4 +349,16 @@ TEST_CASE("the rows of constraints bound the distance of the meshes, as the repo
     }
   }
   CHECK(seen > 100);
+}
+
+TEST_CASE("a mesh that was saved after its body was made is not measured") {
+  const TemporaryFolder folder;
+  saveMesh(folder / "m.obj", lShape());
+  put(folder / "r.urdf", robot(link("a", "<mesh filename=\"m.obj\"/>")));
+  GeometryOptions options;
+  options.cacheFolder.clear();
+  const RobotGeometry geometry = loadGeometry(loadUrdf(folder / "r.urdf"), options);
+  CHECK(ExactBody(geometry.bodies[0]).volume() > 0);
+  saveMesh(folder / "m.obj", boxMesh({0, 0, 0}, {0.1, 0.1, 0.1}));
+  CHECK_THROWS_WITH(ExactBody(geometry.bodies[0]), Catch::Contains("changed while it was read; run again"));
 }
