@@ -1,5 +1,5 @@
-// Parses untrusted XML: bounds size, depth and number of attributes; refuses document types, NUL bytes and
-// xacro. Also prints XML.
+// Parses untrusted XML: bounds size, depth and number of attributes; refuses document types, NUL bytes,
+// control characters and xacro. Also prints XML.
 #include "fcl_stpbv/robot/xml_text.h"
 
 #include <algorithm>
@@ -90,6 +90,27 @@ void refuseXacro(const tinyxml2::XMLElement& root, const std::string& name) {
   }
 }
 
+// XML has no control characters except blanks, but tinyxml2 makes them from "&#x1;". A name with one would go
+// into the files that are written, and strict readers refuse those.
+void refuseControls(const tinyxml2::XMLElement& root, const std::string& name) {
+  const auto isControl = [](char c) {
+    return static_cast<unsigned char>(c) < ' ' && c != '\t' && c != '\n' && c != '\r';
+  };
+  std::vector<const tinyxml2::XMLElement*> open{&root};
+  while (!open.empty()) {
+    const tinyxml2::XMLElement& at = *open.back();
+    open.pop_back();
+    for (const tinyxml2::XMLAttribute* a = at.FirstAttribute(); a; a = a->Next()) {
+      const std::string_view value = a->Value();
+      if (std::any_of(value.begin(), value.end(), isControl))
+        throw Error(xmlPlace(at, name) + "the '" + a->Name() + "' of <" + at.Name() + ">, " + quoted(value) +
+                    ", has a control character, which XML does not allow; write it without");
+    }
+    for (const tinyxml2::XMLElement* e = at.LastChildElement(); e; e = e->PreviousSiblingElement())
+      open.push_back(e);
+  }
+}
+
 /// The printer that printed() uses.
 class AttributePrinter : public tinyxml2::XMLPrinter {
  public:
@@ -136,6 +157,7 @@ void parseXml(std::string_view text, const std::string& name, tinyxml2::XMLDocum
     throw Error(xmlPlace(*second, name) + "<" + second->Name() +
                 "> follows the root element, of which XML has one; give each a file of its own");
   refuseXacro(*root, name);
+  refuseControls(*root, name);
 }
 
 std::string xmlPlace(const tinyxml2::XMLElement& element, const std::string& name) {

@@ -262,6 +262,13 @@ TEST_CASE("tabs and line ends between the numbers of a vector count as spaces, a
   CHECK_THAT(refused(robot(link("a", "<box size=\"1\t2\"/>"))), Contains("3 expected"));
 }
 
+TEST_CASE("control characters in names are refused by line and name, as XML has none") {
+  CHECK_THAT(refused("<robot name=\"r\">\n" + link("a&#x1;b") + "</robot>"),
+             Contains("small.urdf:2: the 'name' of <link>, 'a?b', has a control character"));
+  CHECK_THAT(refused(robot(link("a") + "<material name=\"m\x02\"/>")), Contains("of <material>, 'm?'"));
+  CHECK(parseUrdf(robot(link("a&#9;&#10;&#13;b")), "small.urdf").links[0].name == "a\t\n\rb");
+}
+
 TEST_CASE("xacro is told by its elements and attributes, not by comments, texts or a bare declaration") {
   const auto accepted = [](const std::string& body) {
     parseUrdf(body, "small.urdf");

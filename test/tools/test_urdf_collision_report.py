@@ -232,11 +232,14 @@ class Report(unittest.TestCase):
             self.assertTrue(all(b - a > 20 for a, b in zip(heights, heights[1:])), margin)
 
     def test_names_fake_no_line_and_send_the_terminal_nothing(self):
-        ball, forged = '<sphere radius="0.05"/>', "p&#10;proven free&#10;&#27;[8m"
+        ball, forged = '<sphere radius="0.05"/>', "p&#10;proven free&#10;&#155;8m"
         robot = self.robot(link("root", ball) + link("m") + link(forged, ball) + joint("a", "root", "m") + joint("b&#9;", "m", forged, origin="1 0 0"))
         told = self.run_tool(robot, "--primitives", "flat", "--samples", "20").stdout
-        self.assertIn("root - p?proven free??[8m", told)
-        self.assertFalse([c for c in told if ord(c) < 32 and c != "\n"], told)
+        self.assertIn("root - p?proven free??8m", told)
+        self.assertFalse([c for c in told if (ord(c) < 32 or 127 <= ord(c) < 160) and c != "\n"], told)
+        escape = self.run_tool(self.robot(link("root&#27;[8m", ball)))
+        self.assertIn("'root?[8m', has a control character", escape.stderr)
+        self.assertNotIn("\033", escape.stderr)
 
     def test_a_contact_soon_in_a_long_trajectory_is_not_at_the_start(self):
         told = self.follow("way.csv", "time,slide\n0,0\n0.5,0\n1,1\n900000,1\n").stdout
