@@ -8,6 +8,8 @@
 #include <optional>
 #include <utility>
 
+#include "fcl_stpbv/error.h"
+#include "fcl_stpbv/io/atomic_write.h"
 #include "fcl_stpbv/robot/file_ending.h"
 #include "fcl_stpbv/robot/mesh_file.h"
 #include "fcl_stpbv/robot/uri_text.h"
@@ -103,6 +105,14 @@ void checkTarget(const std::string& option, const std::string& target, InputFile
     throw UsageError(target + ": exists already; give --force to replace it, or another name");
   const fs::path parent = fs::path(target).parent_path();
   if (isFile(parent)) throw UsageError(parent.string() + ": is a file, expected a folder to write to");
+}
+
+void requireWritable(const std::string& target, const std::string& shown) {
+  try {
+    detail::requireWritable(target, shown);
+  } catch (const Error& error) {
+    throw UsageError(error.what());
+  }
 }
 
 void checkValues(const ConversionOptions& options) {
@@ -212,11 +222,10 @@ Plan plan(const std::vector<std::string>& inputs, const std::string& output, con
     named.push_back(options.preview);
   }
   for (const std::string& name : named) {
-    const fs::path parent = fs::path(name).parent_path();
-    if (!parent.empty() && !isFolder(parent)) {
-      throw UsageError(name + ": the folder " + parent.string() + " does not exist; make it first");
-    }
+    requireWritable(name, name);
   }
+  if (isFolder(plan.folder))
+    for (const Job& job : plan.jobs) requireWritable(job.output, job.output);
   return plan;
 }
 

@@ -7,6 +7,7 @@
 
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/formatted.h"
+#include "fcl_stpbv/io/atomic_write.h"
 #include "fcl_stpbv/robot/package_path.h"
 #include "tools/asked_radii.h"
 #include "tools/number_check.h"
@@ -242,10 +243,7 @@ void checkOutput(const std::string& path, const report::RobotFiles& robot,
                  const std::vector<std::string>& others) {
   if (path.empty() || path == "-") return;
   std::error_code ignored;
-  const fs::path parent = fs::path(path).parent_path();
-  if (fs::is_directory(path, ignored)) throw Error("-o " + path + ": is a folder, expected a file");
-  if (!parent.empty() && !fs::is_directory(parent, ignored))
-    throw Error("-o " + path + ": the folder " + parent.string() + " does not exist; make it first");
+  detail::requireWritable(path, "-o " + path);
   if (!fs::is_regular_file(path, ignored)) return;
   requireNoInput("-o", path, others);
   requireNoInput("-o", path, {robot.urdf, robot.srdf, robot.obstacles});

@@ -151,6 +151,35 @@ void atomicWrite(const std::string& path, std::string_view content) {
   putInPlace(writeBeside(target(path), content, 0666, exists ? &old : nullptr));
 }
 
+void requireWritable(const std::string& path, const std::string& shown) {
+  if (descriptorOf(path) >= 0) return;
+  const auto requireRight = [&](const std::string& name, int right) {
+    if (::faccessat(AT_FDCWD, name.c_str(), right, AT_EACCESS) != 0) refuseWrite(shown, errno);
+  };
+  struct stat old {};
+  if (::stat(path.c_str(), &old) == 0) {
+    if (S_ISDIR(old.st_mode)) throw Error(shown + ": is a folder, expected a file");
+    requireRight(path, W_OK);
+    if (!S_ISREG(old.st_mode)) return;
+  }
+  const std::string file = target(path), folder = folderOf(file);
+  struct stat place {};
+  for (std::string at = folder; ::stat(folder.c_str(), &place) != 0; at = folderOf(at)) {
+    const int error = errno;
+    if (error != ENOENT && error != ENOTDIR) refuseWrite(shown, error);
+    struct stat above {};
+    if (::stat(at.c_str(), &above) != 0) continue;
+    if (!S_ISDIR(above.st_mode)) throw Error(shown + ": " + at + " is a file, expected a folder");
+    throw Error(shown + ": " + (file == path ? "" : "leads to " + file + ", but ") + "the folder " + folder +
+                " does not exist; make it first");
+  }
+  if (!S_ISDIR(place.st_mode)) throw Error(shown + ": " + folder + " is a file, expected a folder");
+  requireRight(folder, W_OK | X_OK);
+  const long longest = ::pathconf(folder.c_str(), _PC_NAME_MAX);
+  const std::size_t length = file.size() - (file.find('/') == std::string::npos ? 0 : folder.size() + 1);
+  if (longest > 0 && length > static_cast<std::size_t>(longest)) refuseWrite(shown, ENAMETOOLONG);
+}
+
 void atomicWriteAll(const std::vector<NamedText>& files) {
   const EndPutOff putOff;
   std::vector<Whole> written;

@@ -19,6 +19,10 @@ struct NamedText {
   std::string path, content;
 };
 
+/// Checks before the work that atomicWrite() can write to `path`, and changes nothing. `shown` stands for the
+/// path in messages. @throws Error saying what is in the way.
+void requireWritable(const std::string& path, const std::string& shown);
+
 /// atomicWrite() for files that belong together: all are written before the first one is renamed to its name.
 /// No devices or pipes. @throws Error as above. All files are then unchanged, unless the rename of a later
 /// file fails (for example in a folder in which files of other users cannot be replaced). In that case the

@@ -65,6 +65,28 @@ TEST_CASE("files that belong together are written all or none") {
   CHECK(contentOf(folder / "a") == "new");
 }
 
+TEST_CASE("what stands in the way of a file is named before the work, and nothing is made") {
+  const TemporaryFolder folder;
+  put(folder / "file", "old");
+  std::filesystem::create_directory(folder / "folder");
+  std::filesystem::create_symlink("none/a", folder / "link");
+  const auto check = [](const std::string& path) { requireWritable(path, "-o " + path); };
+  for (const char* good : {"new", "file", "folder/new"}) CHECK(refusal(check, folder / good) == "");
+  for (const char* good : {"/dev/null", "/dev/stdout", "new"}) CHECK(refusal(check, good) == "");
+  const std::pair<std::string, std::string> bad[] = {
+      {folder / "folder", "is a folder, expected a file"},
+      {folder / "none/a", "the folder " + (folder / "none") + " does not exist; make it first"},
+      {folder / "link", "leads to " + (folder / "none/a")},
+      {folder / "file/a", folder / "file" + " is a file, expected a folder"},
+      {folder / "file/a/b", folder / "file" + " is a file, expected a folder"},
+      {folder / std::string(300, 'n'), "File name too long"}};
+  for (const auto& [path, message] : bad) {
+    CHECK_THAT(refusal(check, path), Catch::StartsWith("-o " + path + ": ") && Catch::Contains(message));
+  }
+  CHECK(folder.files() == Names{"file", "folder", "link"});
+  CHECK(contentOf(folder / "file") == "old");
+}
+
 TEST_CASE("a device is written straight and stays what it is") {
   atomicWrite("/dev/null", "text");
   CHECK(std::filesystem::is_character_file("/dev/null"));
