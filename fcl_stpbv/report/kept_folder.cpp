@@ -80,6 +80,14 @@ std::string keyOfFolder(const std::string& path, const std::vector<std::string>&
   return same && found == manifest["files"].size() ? manifest["key"].get<std::string>() : "";
 }
 
+std::vector<std::string> warningsOfFolder(const std::string& folder) {
+  std::vector<std::string> warnings;
+  const nlohmann::json manifest = manifestOf(folder);
+  for (const nlohmann::json& warning : manifest.value("warnings", nlohmann::json::array()))
+    if (warning.is_string()) warnings.push_back(warning.get<std::string>());
+  return warnings;
+}
+
 void addFiles(nlohmann::ordered_json& manifest, const std::string& key, const detail::FolderFiles& files) {
   manifest["key"] = key;
   for (const auto& [name, content] : files) manifest["files"][name] = sha256(content);

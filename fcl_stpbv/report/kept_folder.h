@@ -19,6 +19,9 @@ inline constexpr const char* kManifest = "manifest.json";
 /// @throws Error naming the folder or file, and what would work.
 std::string keyOfFolder(const std::string& folder, const std::vector<std::string>& inputs, bool force);
 
+/// The warnings in the manifest of a folder that keyOfFolder() has accepted.
+std::vector<std::string> warningsOfFolder(const std::string& folder);
+
 /// The manifest's own entries: the key and each file's SHA-256.
 void addFiles(nlohmann::ordered_json& manifest, const std::string& key, const detail::FolderFiles& files);
 

@@ -178,7 +178,8 @@ std::string PartFiles::manifest(const ordered_json& inputs, const std::string& k
                     {"inputs", inputs},
                     {"excess_max", excess_},
                     {"links", links_},
-                    {"left_out", report_.skipped}};
+                    {"left_out", report_.skipped},
+                    {"warnings", report_.warnings}};
   std::map<std::string, int> reasons;
   for (const PairReport& pair : report_.pairs) ++reasons[pair.reason];
   json["pairs"] = {{"total", report_.pairs.size()}, {"checked", report_.checked}, {"reasons", reasons}};

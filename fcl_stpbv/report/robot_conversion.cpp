@@ -75,7 +75,7 @@ ordered_json inputsOf(const RobotConversion& conversion, std::vector<std::string
     inputs[what] = {{"file", path}, {"sha256", sha256(readText(path))}};
   };
   inputs["version"] = FCL_STPBV_VERSION;
-  inputs["writer"] = 4;  // changed when the same inputs give other files
+  inputs["writer"] = 5;  // changed when the same inputs give other files
   add("urdf", files.urdf);
   // The names of visual meshes and textures are written relative to the new folder, so the key changes if it
   // is moved.
@@ -130,6 +130,7 @@ ConversionResult convertRobot(const RobotConversion& conversion) {
   if (kept == key && !conversion.force) {
     result.upToDate = true;
     for (const auto& shape : inputs["left_out"]) result.skipped.push_back(shape);
+    result.warnings = warningsOfFolder(conversion.folder);
     result.summary = conversion.folder + " is up to date";
     return result;
   }

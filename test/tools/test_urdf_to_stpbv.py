@@ -115,6 +115,15 @@ class Conversion(unittest.TestCase):
         for words in says:
             self.assertIn(words, done.stderr)
 
+    def test_a_second_run_repeats_the_warnings(self):
+        urdf = self.gate()
+        urdf.write_text(urdf.read_text().replace('lower="-1" upper="1"', 'lower="0" upper="0"'))
+        first, second = self.convert(), self.convert()
+        self.assertIn("is up to date", second.stdout)
+        self.assertIn("they never move", first.stderr)
+        self.assertEqual(second.stderr, first.stderr)
+        self.assertTrue(self.manifest()["warnings"])
+
     def test_the_parts_are_convex_cover_the_mesh_and_keep_within_their_bounds(self):
         self.gate()
         done = self.convert("--parts", "4")
