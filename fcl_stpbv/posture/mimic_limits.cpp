@@ -84,4 +84,16 @@ void keepMimicLimits(const Kinematics& kinematics, NamedLimits lower, NamedLimit
   }
 }
 
+std::vector<std::string> impossibleMimics(const Kinematics& kinematics) {
+  Eigen::VectorXd lower = kinematics.lower(), upper = kinematics.upper();
+  std::vector<std::string> lowerBy(at(kinematics.size())), upperBy = lowerBy;
+  try {
+    keepMimicLimits(kinematics, {lower, lowerBy}, {upper, upperBy});
+  } catch (const Error& error) {
+    return {error.what() +
+            std::string(". Until then every verdict is over postures that the robot cannot have.")};
+  }
+  return {};
+}
+
 }  // namespace fcl_stpbv::detail

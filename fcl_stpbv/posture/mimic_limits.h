@@ -20,4 +20,8 @@ struct NamedLimits {
 /// @throws Error naming the joints if no value is left.
 void keepMimicLimits(const Kinematics& kinematics, NamedLimits lower, NamedLimits upper);
 
+/// A warning if the limits of mimic joints leave no posture, so that everything said about the robot is about
+/// postures that it cannot have; else none.
+std::vector<std::string> impossibleMimics(const Kinematics& kinematics);
+
 }  // namespace fcl_stpbv::detail

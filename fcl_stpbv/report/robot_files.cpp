@@ -3,6 +3,7 @@
 #include "fcl_stpbv/report/robot_files.h"
 
 #include "fcl_stpbv/error.h"
+#include "fcl_stpbv/posture/mimic_limits.h"
 #include "fcl_stpbv/robot/checked_pairs.h"
 #include "fcl_stpbv/robot/load_warnings.h"
 #include "fcl_stpbv/robot/pair_list.h"
@@ -102,6 +103,7 @@ std::vector<std::string> RobotLoader::warnings() const {
   if (srdf_) append(all, srdf_->warnings);
   if (srdf_ && !files_.writesPairs) append(all, leavesOutNone(*robot_, *geometry_, *srdf_));
   append(all, stillJoints(*robot_));
+  append(all, impossibleMimics(*kinematics_));
   if (scene_) append(all, stillObstacles(*scene_));
   append(all, raisedR(*robot_, *geometry_, files_.geometry, kLargerR));
   if (scene_) append(all, raisedR(*scene_, *sceneGeometry_, sceneOptions_, kLargerR));

@@ -2,9 +2,11 @@
 #include <catch2/catch.hpp>
 
 #include "fcl_stpbv/error.h"
+#include "fcl_stpbv/posture/mimic_limits.h"
 #include "test/posture/arms.h"
 
 using namespace fcl_stpbv;
+using namespace fcl_stpbv::detail;
 using namespace fcl_stpbv::test;
 
 namespace {
@@ -107,4 +109,17 @@ TEST_CASE("a joint that follows another one has no value of its own in a task") 
   };
   CHECK_THROWS_WITH(refused("m0"), "task.json: start.joints: 'm0' follows 'j'; give that joint's value");
   CHECK_THROWS_WITH(refused("m00"), Catch::Contains("no joint 'm00' of its own; did you mean 'm0'?"));
+}
+
+TEST_CASE("a warning says that no posture keeps the limits of a mimic joint") {
+  const auto warned = [](const std::string& follower) {
+    return impossibleMimics(Kinematics(followed("revolute", {follower}).robot));
+  };
+  CHECK(warned(limits(-1, 1) + mimics("j", 1, 0)).empty());
+  for (const std::string& follower : {limits(3, 4) + mimics("j", 1, 0), limits(-3, 3) + mimics("j", 0, 5)}) {
+    const std::vector<std::string> warnings = warned(follower);
+    REQUIRE(warnings.size() == 1);
+    CHECK(warnings[0] == refusal(followed("revolute", {follower})) +
+                             ". Until then every verdict is over postures that the robot cannot have.");
+  }
 }
