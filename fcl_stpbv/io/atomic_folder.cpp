@@ -31,24 +31,25 @@ struct Removed {
   }
 };
 
-void writeFile(const fs::path& path, const std::string& content) {
+// `shown` stands for the path in messages.
+void writeFile(const fs::path& path, const std::string& content, const fs::path& shown) {
   std::error_code error;
   fs::create_directories(path.parent_path(), error);
-  if (error) refuseWrite(path.parent_path(), error.value());
+  if (error) refuseWrite(shown.parent_path(), error.value());
   errno = 0;
   std::ofstream out(path, std::ios::binary);
   out.write(content.data(), static_cast<std::streamsize>(content.size()));
   out.close();
-  if (!out) refuseWrite(path, errno != 0 ? errno : EIO);
+  if (!out) refuseWrite(shown, errno != 0 ? errno : EIO);
 }
 
 // One call flushes all files, instead of one call for each file.
-void toDisk(const fs::path& folder) {
+void toDisk(const fs::path& folder, const std::string& shown) {
   const int open = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   const bool done = open >= 0 && ::syncfs(open) == 0;
   const int error = errno;
   if (open >= 0) ::close(open);
-  if (!done) refuseWrite(folder, error);
+  if (!done) refuseWrite(shown, error);
 }
 
 void takeName(const fs::path& made, const fs::path& name) {
@@ -101,8 +102,9 @@ void atomicWriteFolder(const std::string& folder, const FolderFiles& files) {
   const fs::path name = placeOf(folder);
   const std::string made = madeBeside(name, folder);
   const Removed temporary{made};  // after a swap the old folder
-  for (const auto& [file, content] : files) writeFile(fs::path(made) / file, content);
-  toDisk(made);
+  for (const auto& [file, content] : files)
+    writeFile(fs::path(made) / file, content, fs::path(folder) / file);
+  toDisk(made, folder);
   takeName(made, name);
 }
 

@@ -87,3 +87,15 @@ TEST_CASE("a folder that cannot be written is left as it was, and nothing beside
   CHECK_FALSE(fs::exists(folder + "/b"));
   CHECK(around.files() == std::vector<std::string>{"out"});
 }
+
+TEST_CASE("a file that cannot be written is named where it would be") {
+  const TemporaryFolder around;
+  const std::string file = "meshes/" + std::string(300, 'n');
+  const std::string message = refusal(
+      [&](const std::string& folder) {
+        atomicWriteFolder(folder, {{file, "one"}});
+      },
+      around / "out");
+  CHECK_THAT(message, Contains(around / "out/" + file + ": cannot be written: File name too long"));
+  CHECK(around.files().empty());
+}
