@@ -12,6 +12,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <assimp/Importer.hpp>
+#include <new>
 #include <optional>
 #include <unordered_map>
 #include <utility>
@@ -193,6 +194,7 @@ const aiScene& read(Assimp::Importer& importer, ReadableFiles& files, const std:
   if (scene == nullptr || scene->mRootNode == nullptr) {
     constexpr std::size_t kLongest = 200;  // characters; assimp may quote the file up to its end
     std::string why = importer.GetErrorString();
+    if (why.find("bad_alloc") != std::string::npos) throw std::bad_alloc();  // assimp has caught it
     if (const std::size_t at = why.find(alias); inMemory && at != std::string::npos)
       why.replace(at, alias.size() + (ending.empty() ? 1 : 0), path);  // with the dot for an ending
     if (why.size() > kLongest) why = why.substr(0, kLongest) + " ...";

@@ -20,6 +20,7 @@
 #include <new>
 
 #include "fcl_stpbv/error.h"
+#include "fcl_stpbv/robot/passing_error.h"
 
 namespace fcl_stpbv::detail {
 namespace {
@@ -28,7 +29,8 @@ namespace {
 constexpr std::size_t kMemory = 256u << 20, kMemoryPerByte = 256;
 constexpr double kSeconds = 5, kSecondsPerByte = 5e-6;
 
-enum Outcome : char { kDone = 'd', kRefused = 'r', kOutOfMemory = 'm' };
+// Out of memory: beyond the limits for the file, or because this process may not have as much.
+enum Outcome : char { kDone = 'd', kRefused = 'r', kOutOfMemory = 'm', kLacksMemory = 'l' };
 
 std::size_t addressSpace() {
   std::size_t pages = 0;
@@ -61,11 +63,11 @@ void writeAll(int to, const char* data, std::size_t size) {
     std::signal(signal, SIG_DFL);
   const rlimit none{0, 0};
   ::setrlimit(RLIMIT_CORE, &none);
+  ChildLimits limits;
   try {
-    ChildLimits limits;
     answer(to, kDone, work(limits));
   } catch (const std::bad_alloc&) {
-    answer(to, kOutOfMemory, "");
+    answer(to, limits.lacksMemory() ? kLacksMemory : kOutOfMemory, "");
   } catch (const std::exception& e) {
     answer(to, kRefused, e.what());
   } catch (...) {
@@ -102,17 +104,22 @@ void ChildLimits::allow(std::size_t bytes) {
   // Sets the limit as far as this process's own limits allow it.
   const auto lower = [](auto resource, rlim_t limit) {
     rlimit both{};
-    if (::getrlimit(resource, &both) != 0) return;
+    if (::getrlimit(resource, &both) != 0) return false;
     both.rlim_cur = both.rlim_max == RLIM_INFINITY ? limit : std::min(limit, both.rlim_max);
     ::setrlimit(resource, &both);
+    return both.rlim_cur < limit;
   };
-  lower(RLIMIT_AS, memory_);
+  lacksMemory_ = lower(RLIMIT_AS, memory_);
   lower(RLIMIT_CPU, static_cast<rlim_t>(std::ceil(seconds_)));
+}
+
+void refuseWithoutMemory(const std::string& file) {
+  throw PassingError(file + ": memory ran out while it was read; free some, or raise the limit (ulimit -v)");
 }
 
 std::string inChildProcess(const std::string& name, const std::function<std::string(ChildLimits&)>& work) {
   int ends[2];
-  if (::pipe2(ends, O_CLOEXEC) != 0) throw Error(name + ": cannot be read: " + std::strerror(errno));
+  if (::pipe2(ends, O_CLOEXEC) != 0) throw PassingError(name + ": cannot be read: " + std::strerror(errno));
   const pid_t pid = ::fork();
   if (pid == 0) {
     ::close(ends[0]);
@@ -120,8 +127,10 @@ std::string inChildProcess(const std::string& name, const std::function<std::str
   }
   ::close(ends[1]);
   if (pid < 0) {
+    const int error = errno;
     ::close(ends[0]);
-    throw Error(name + ": cannot be read: " + std::strerror(errno));
+    if (error == ENOMEM) refuseWithoutMemory(name);
+    throw PassingError(name + ": cannot be read: " + std::strerror(error));
   }
   const std::string all = readAll(ends[0]);
   ::close(ends[0]);
@@ -138,6 +147,7 @@ std::string inChildProcess(const std::string& name, const std::function<std::str
   if (signal == SIGXCPU)
     throw Error(name +
                 ": takes more time to read than a file of its size can need; it is damaged, export it again");
+  if (!all.empty() && all[0] == kLacksMemory) refuseWithoutMemory(name);
   if (!all.empty() && all[0] == kOutOfMemory)
     throw Error(
         name +

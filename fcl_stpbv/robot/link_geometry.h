@@ -150,7 +150,7 @@ class LinkParts {
   /// The parts of one whole body, split into at most `most` parts. They have the radii of the body, or are
   /// flat if it is flat; `partOf` is `body`. A convex mesh, or `most` = 1, gives a single part, the mesh's
   /// hull. A primitive, or points without triangles, gives none.
-  /// @throws Error naming the mesh, also if its file has changed since. and for a body that does not exist.
+  /// @throws Error naming the mesh, and for a body that does not exist.
   const std::vector<Body>& of(int body, int most);
 
   /// Computes in advance, on several threads, the parts that geometry(most, ...) needs. `progress`: see

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstring>
 #include <filesystem>
+#include <new>
 #include <string_view>
 
 #include "fcl_stpbv/error.h"
@@ -107,7 +108,11 @@ TriangleMesh byAssimp(const std::string& path, const std::string& text, bool inM
 
 std::string detail::meshText(const std::string& path, const Vector3d& scale) {
   checkReadable(path, scale);
-  return readText(path);
+  try {
+    return readText(path);
+  } catch (const std::bad_alloc&) {
+    refuseWithoutMemory(path);
+  }
 }
 
 TriangleMesh detail::meshOf(const std::string& text, const std::string& path, const Vector3d& scale) {

@@ -1,14 +1,18 @@
 // Damaged meshes are refused with the line, and a mesh cannot be used to read other files.
+#include <sys/resource.h>
 #include <sys/stat.h>
 
 #include <catch2/catch.hpp>
 #include <filesystem>
+#include <new>
 
 #include "fcl_stpbv/error.h"
+#include "fcl_stpbv/robot/child_process.h"
 #include "fcl_stpbv/robot/mesh_file.h"
 #include "test/reference/volume_files.h"
 
 using namespace fcl_stpbv;
+using namespace fcl_stpbv::detail;
 using namespace fcl_stpbv::test;
 using Catch::Matchers::Contains;
 
@@ -145,4 +149,22 @@ TEST_CASE("a mesh that is a pipe or a device is refused at once") {
   REQUIRE(::mkfifo((folder / "pipe.stl").c_str(), 0600) == 0);
   CHECK_THAT(loaded(folder / "pipe.stl"), Contains("pipe or a device"));
   CHECK_THAT(loaded("/dev/zero"), Contains("pipe or a device"));
+}
+
+TEST_CASE("a file for which there is no memory is not called damaged") {
+  const auto read = [](bool little) {
+    return refusal(
+        [little](const std::string& name) {
+          inChildProcess(name, [little](ChildLimits& limits) -> std::string {
+            constexpr std::size_t kMost = std::size_t(1) << 50;  // bytes; enough for the program itself
+            const rlimit most{kMost, kMost};
+            if (little) ::setrlimit(RLIMIT_AS, &most);
+            limits.allow(kMost);
+            throw std::bad_alloc();
+          });
+        },
+        "m.stl");
+  };
+  CHECK_THAT(read(true), Contains("m.stl: memory ran out while it was read"));
+  CHECK_THAT(read(false), Contains("m.stl: takes more memory to read than a file of its size can need"));
 }
