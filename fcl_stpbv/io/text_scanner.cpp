@@ -2,11 +2,14 @@
 // so the locale does not matter.
 #include "fcl_stpbv/io/text_scanner.h"
 
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <charconv>
 #include <cmath>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <istream>
@@ -39,12 +42,19 @@ std::string quoted(std::string_view word) {
   return text + (word.size() > kLongestQuote ? "...'" : "'");
 }
 
+std::string whyNoFile(const std::string& path) {
+  struct stat found {};
+  if (::stat(path.c_str(), &found) == 0 || errno == ENOENT || errno == ENOTDIR) return "no such file";
+  return "cannot be reached: " + std::string(std::strerror(errno)) +
+         (errno == EACCES ? "; check the permissions of its folders" : "");
+}
+
 std::string readText(const std::string& path, std::size_t mostBytes) {
   std::error_code ignored;
   if (path.empty()) throw Error("the name of a file to read is empty; give one");
   const std::string file = path == "-" ? "/dev/stdin" : path;
   if (std::filesystem::is_directory(file, ignored)) throw Error(path + ": is a folder, expected a file");
-  if (!std::filesystem::exists(file, ignored)) throw Error(path + ": no such file");
+  if (!std::filesystem::exists(file, ignored)) throw Error(path + ": " + whyNoFile(file));
   const bool terminal = file == "/dev/stdin" && ::isatty(STDIN_FILENO) != 0;
   if (std::filesystem::is_block_file(file, ignored) ||
       (std::filesystem::is_character_file(file, ignored) && !terminal))

@@ -13,6 +13,9 @@ namespace fcl_stpbv::detail {
 /// Largest size of a file, far more than any mesh or volume needs: 100 million vertices as text.
 constexpr std::size_t kMostBytes = std::size_t(8) << 30;
 
+/// Why a path leads to no file, for messages: there is none, or it cannot be reached.
+std::string whyNoFile(const std::string& path);
+
 /// The whole text of a file, of standard input for "-", or of a pipe until its writer closes it. A text of
 /// more than `mostBytes` is refused, and so is a file without an end.
 /// @throws Error naming the file if it cannot be read, is larger, or is a device.

@@ -37,7 +37,7 @@ void checkReadable(const std::string& path, const Vector3d& scale) {
   if (path.empty()) throw Error("the name of a file to read is empty; give one");
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored)) throw Error(path + ": is a folder, expected a file");
-  if (path != "-" && !std::filesystem::exists(path, ignored)) throw Error(path + ": no such file");
+  if (path != "-" && !std::filesystem::exists(path, ignored)) throw Error(path + ": " + whyNoFile(path));
   if (!std::filesystem::is_regular_file(path, ignored))
     throw Error(path + ": is a pipe or a device, expected a file");
 }

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "fcl_stpbv/error.h"
+#include "fcl_stpbv/io/text_scanner.h"
 #include "fcl_stpbv/robot/uri_text.h"
 #include "fcl_stpbv/robot/xml_text.h"
 
@@ -179,8 +180,15 @@ std::string PackagePath::resolve(const std::string& uri) const {
       if (std::find(paths.begin(), paths.end(), path) == paths.end()) paths.push_back(path);
     }
   }
+  for (const std::string& path : paths) {
+    if (fs::is_directory(path, ignored)) throw Error(path + ": is a folder, expected a file");
+    if (fs::exists(path, ignored)) throw Error(path + ": is a pipe or a device, expected a file");
+  }
   std::string message = uri + ": no such file; tried";
-  for (const std::string& path : paths) message += "\n  " + path;
+  for (const std::string& path : paths) {
+    const std::string why = whyNoFile(path);
+    message += "\n  " + path + (why == "no such file" ? "" : " (" + why + ")");
+  }
   if (startsWith(uri, kPackage)) {
     const std::string package = uri.substr(kPackage.size(), uri.find('/', kPackage.size()) - kPackage.size());
     message += "\nGive the folder that holds the package '" + package +

@@ -265,6 +265,17 @@ TEST_CASE("a mesh that is missing or broken names robot, link and file") {
   std::filesystem::remove(folder / "mesh.obj");
   CHECK_THAT(refusal([&](const std::string&) { loadGeometry(model, cachedIn("")); }, ""),
              Contains("'a'") && Contains("tried") && Contains(folder / "mesh.obj"));
+  std::filesystem::create_directory(folder / "mesh.obj");
+  CHECK_THAT(refusal([&](const std::string&) { loadGeometry(model, cachedIn("")); }, ""),
+             Contains(folder / "mesh.obj" + ": is a folder, expected a file"));
+  std::filesystem::remove(folder / "mesh.obj");
+  std::filesystem::create_symlink("/dev/zero", folder / "mesh.obj");
+  CHECK_THAT(refusal([&](const std::string&) { loadGeometry(model, cachedIn("")); }, ""),
+             Contains(folder / "mesh.obj" + ": is a pipe or a device, expected a file"));
+  const auto load = [](const std::string& path) { loadUrdf(path); };
+  CHECK(refusal(load, folder / "none.urdf") == folder / "none.urdf" + ": no such file");
+  std::filesystem::create_symlink("loop.urdf", folder / "loop.urdf");
+  CHECK_THAT(refusal(load, folder / "loop.urdf"), Contains("loop.urdf: cannot be reached: Too many levels"));
 }
 
 TEST_CASE("primitives stay primitives") {
