@@ -68,6 +68,21 @@ std::vector<std::string> cellsOf(std::string_view line) {
   return cells;
 }
 
+// The end of the line of names. A name in quotes may contain line feeds; a quote that never ends is none.
+std::size_t endOfNames(std::string_view text) {
+  bool begins = true;  // a cell
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] == '\n') return i;
+    if (begins && text[i] == '"') {
+      for (++i; i < text.size() && (text[i] != '"' || text.substr(i + 1, 1) == "\""); ++i)
+        if (text[i] == '"') ++i;
+      if (i >= text.size()) return std::min(text.find('\n'), text.size());
+    }
+    begins = text[i] == ',' || (begins && (text[i] == ' ' || text[i] == '\t'));
+  }
+  return text.size();
+}
+
 bool isNumber(const std::string& cell, double& value) {
   const std::string_view digits = withoutPlus(cell);
   const auto read = std::from_chars(digits.data(), digits.data() + digits.size(), value);
@@ -78,12 +93,13 @@ Columns fromCsv(const std::string& text, const std::string& path) {
   Columns columns;
   if (text.find('\n') == std::string::npos && text.find('\r') != std::string::npos)
     throw Error(path + ": its lines end in carriage returns alone; save it with line feeds");
-  std::size_t number = 0;
+  std::size_t number = 1, next = 1;  // of this line and the next
   for (std::string_view rest = text; !rest.empty();) {
-    const std::size_t end = std::min(rest.find('\n'), rest.size());
+    const std::size_t end = columns.names.empty() ? endOfNames(rest) : std::min(rest.find('\n'), rest.size());
     const std::string_view line = rest.substr(0, end);
     rest.remove_prefix(std::min(end + 1, rest.size()));
-    ++number;
+    number = next;
+    next += 1 + static_cast<std::size_t>(std::count(line.begin(), line.end(), '\n'));
     if (line.find_first_not_of(" \t\r") == std::string_view::npos) continue;
     const std::string place = path + ":" + std::to_string(number);
     const std::vector<std::string> cells = cellsOf(line);

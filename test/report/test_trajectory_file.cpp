@@ -56,6 +56,22 @@ TEST_CASE("half a turn, a long slide and a joint with limits are nothing to tell
   CHECK(saidOf("revolute", of(-4), of(4)).empty());
 }
 
+TEST_CASE("a name with line feeds is read in quotes, and lines are counted with them") {
+  const TemporaryFolder folder;
+  const std::string path = folder / "way.csv";
+  const auto read = [&](const std::string& text) {
+    std::ofstream(path) << text;
+    const Kinematics kinematics(std::make_shared<const RobotModel>(
+        parseUrdf(test::robot(link("a") + link("b") + link("c") + joint("x&#10;y", "revolute", "a", "b") +
+                              joint("l&#10;&quot;", "revolute", "b", "c")),
+                  "small.urdf")));
+    return readTrajectory(path, kinematics, Eigen::VectorXd::Zero(2)).points.back();
+  };
+  CHECK(read("\n\"x\ny\",\"l\n\"\"\"\n0,0\n0.5,0.25\n") == Eigen::Vector2d(0.5, 0.25));
+  CHECK_THROWS_WITH(read("\n\"x\ny\",\"l\n\"\"\"\n0,0\n1\n"), Catch::Contains("way.csv:6: has 1 values"));
+  CHECK_THROWS_WITH(read("\"x,l\n0,0\n1,1\n"), Catch::Contains("no moving joint '\"x'"));
+}
+
 TEST_CASE("names in quotes are read as CSV files quote them") {
   const TemporaryFolder folder;
   const std::string path = folder / "way.csv";
