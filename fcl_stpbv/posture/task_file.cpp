@@ -1,6 +1,7 @@
 // Reads the JSON of a task (docs/posture.md) field by field. An unknown key or a wrong type is an Error that
 // names the path of the field.
 #include <algorithm>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -148,6 +149,8 @@ PostureTask::Place readPlacement(const Field& field) {
   place.placement.name = field.has("name") ? field["name"].text() : place.link;
   if (field.has("frame")) place.placement.frame = field["frame"].pose();
   place.placement.target = field["target"].pose();
+  if (!field["target"].has("position") && !field["target"].has("rpy"))
+    field["target"].refuse("a position, an rpy or both; {\"position\": [0, 0, 0]} is the origin");
   if (!field.has("free")) return place;
   const std::vector<std::string> directions{"x", "y", "z", "rx", "ry", "rz"};
   for (const Field& word : field["free"].list("directions")) {
@@ -174,6 +177,16 @@ std::vector<std::string> textsOf(const Field& item, const char* key) {
   return item.has(key) ? item[key].texts() : std::vector<std::string>{};
 }
 
+// Two placements with one name would give two violations with one name.
+void tellApart(std::vector<PostureTask::Place>& places) {
+  std::map<std::string, int> all, seen;
+  for (const PostureTask::Place& place : places) ++all[place.placement.name];
+  for (PostureTask::Place& place : places) {
+    std::string& name = place.placement.name;
+    if (all[name] > 1) name += "#" + std::to_string(++seen[name]);
+  }
+}
+
 // `keys` are links, obstacles and perhaps self.
 std::vector<LinkObstacles> readPairs(const Field& field, const std::set<std::string>& keys) {
   std::vector<LinkObstacles> lists;
@@ -181,6 +194,9 @@ std::vector<LinkObstacles> readPairs(const Field& field, const std::set<std::str
     item.object(keys);
     lists.push_back({textsOf(item, "links"), textsOf(item, "obstacles"), {}});
     if (item.has("self")) lists.back().self = item["self"].texts();
+    if (keys.count("self") && lists.back().links.empty() && lists.back().obstacles.empty() &&
+        !lists.back().self)
+      item.refuse("names in links or obstacles, or the key self; without them all pairs with obstacles go");
   }
   return lists;
 }
@@ -218,6 +234,7 @@ PostureTask parseTask(const std::string& text, const std::string& path) {
   if (root.has("cost")) readCost(root["cost"], task);
   for (const Field& item : root["placements"].list("placements"))
     task.placements.push_back(readPlacement(item));
+  tellApart(task.placements);
   if (document.size() == 1 && task.placements.empty())  // a form that was not filled in
     throw Error(path +
                 ": asks for nothing; give a placement, contacts in \"stability\", or a \"start\" with "

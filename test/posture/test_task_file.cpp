@@ -37,16 +37,23 @@ TEST_CASE("a task file's mistakes are named with their key") {
   refused(R"({"placement": []})", "task.json", "; did you mean 'placements'?");
   refused(R"({"placements": [{"link": "BODY", "traget": {}}]})", "placements[0]", "; did you mean 'target'?");
   refused(R"({"placements": 3})", "placements", "expected a list");
-  refused(R"({"placements": [{"link": "NO", "target": {}}]})", "placements[0].link", "no link 'NO'");
+  refused(R"({"placements": [{"link": "NO", "target": {"position": [0, 0, 0]}}]})", "placements[0].link",
+          "no link 'NO'");
   refused(R"({"placements": [{"link": "BODY"}]})", "placements[0]", "'target' is missing");
   refused(R"({"placements": [{"link": "BODY", "target": {"position": [1, 2]}}]})",
           "placements[0].target.position", "three numbers");
   refused(R"({"placements": [{"link": "BODY", "target": {"position": [1, 2, "x"]}}]})",
           "placements[0].target.position[2]", "a number");
-  refused(R"({"placements": [{"link": "BODY", "target": {}, "free": ["w"]}]})", "placements[0].free[0]",
-          "one of x, y");
-  refused(R"({"placements": [{"link": "BODY", "target": {}, "free": ["rx", "ry"]}]})", "placement 'BODY'",
-          "two rotations");
+  refused(R"({"placements": [{"link": "BODY", "target": {"rpy": [0, 0, 0]}, "free": ["w"]}]})",
+          "placements[0].free[0]", "one of x, y");
+  refused(R"({"placements": [{"link": "BODY", "target": {"rpy": [0, 0, 0]}, "free": ["rx", "ry"]}]})",
+          "placement 'BODY'", "two rotations");
+  refused(R"({"placements": [{"link": "BODY", "target": {}}]})", "placements[0].target",
+          "expected a position, an rpy or both");
+  refused(R"({"placements": [], "collisions": {"ignore": [{}]}})", "collisions.ignore[0]",
+          "expected names in links");
+  refused(R"({"placements": [], "collisions": {"ignore": [{"links": []}]}})", "collisions.ignore[0]",
+          "all pairs with obstacles go");
   const std::string near = R"("cost": {"towards": "start"})";  // the message recommends this
   refused(R"({"placements": []})", "task.json",
           R"(asks for nothing; give a placement, contacts in "stability", or a "start" with )" + near);
@@ -109,4 +116,15 @@ TEST_CASE("an obstacle's other shapes are named with it, and other links whose n
   };
   CHECK(pairs("can") == 2);
   CHECK(pairs("can#left") == 1);
+}
+
+TEST_CASE("placements with one name are numbered") {
+  const std::string origin = R"("target": {"position": [0, 0, 0]}})";
+  const PostureTask task =
+      parseTask(R"({"placements": [{"link": "BODY", )" + origin + R"(, {"link": "HEAD_LINK1", )" + origin +
+                    R"(, {"link": "BODY", )" + origin + "]}",
+                "task.json");
+  CHECK(task.placements[0].placement.name == "BODY#1");
+  CHECK(task.placements[1].placement.name == "HEAD_LINK1");
+  CHECK(task.placements[2].placement.name == "BODY#2");
 }
