@@ -12,12 +12,14 @@
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/error_place.h"
 #include "fcl_stpbv/formatted.h"
+#include "fcl_stpbv/io/atomic_write.h"
 #include "fcl_stpbv/io/text_scanner.h"
 #include "fcl_stpbv/io/volume_files.h"
 #include "fcl_stpbv/parts/mesh_solid.h"
 #include "fcl_stpbv/robot/file_ending.h"
 #include "fcl_stpbv/robot/fitted_radii.h"
 #include "fcl_stpbv/robot/mesh_file.h"
+#include "fcl_stpbv/robot/mesh_write.h"
 #include "fcl_stpbv/text_cells.h"
 #include "fcl_stpbv/volume/tessellate.h"
 #include "fcl_stpbv/volume/verify.h"
@@ -147,12 +149,15 @@ void write(const Report& report, const ConversionOptions& options) {
   const TriangleMesh surface = isShown ? tessellate(*report.volume) : TriangleMesh();
   if (isShown && surface.triangles.empty())
     throw Error(report.input + ": one point with r = 0 has no surface; give -r, or leave out --preview");
-  if (options.format == Format::sch) {
-    saveSch(report.output, *report.volume);
-  } else {
-    saveStpBv(report.output, *report.volume);
-  }
-  if (isShown) saveMesh(options.preview, surface);
+  std::vector<NamedText> files{{report.output, fileText(*report.volume, options.format, report.output)}};
+  if (isShown) files.push_back({options.preview, colouredText(options.preview, {surface})});
+  atomicWriteAll(files);
+}
+
+std::string fileText(const StpBv& volume, Format format, const std::string& name) {
+  std::ostringstream text;
+  within(name, [&] { format == Format::sch ? saveSch(text, volume) : saveStpBv(text, volume); });
+  return text.str();
 }
 
 std::string toText(const Report& report) {

@@ -63,6 +63,10 @@ Report convert(const std::string& input, const ConversionOptions& options);
 /// Writes the result of convert(): the volume and, if requested, its preview.
 void write(const Report& report, const ConversionOptions& options);
 
+/// A volume as the text of the file `name`. @throws Error naming it, if the format cannot represent the
+/// volume.
+std::string fileText(const StpBv& volume, Format format, const std::string& name);
+
 /// Some lines for people to read.
 std::string toText(const Report& report);
 

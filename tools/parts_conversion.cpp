@@ -11,7 +11,7 @@
 #include "fcl_stpbv/formatted.h"
 #include "fcl_stpbv/io/atomic_write.h"
 #include "fcl_stpbv/io/volume_files.h"
-#include "fcl_stpbv/robot/mesh_file.h"
+#include "fcl_stpbv/robot/mesh_write.h"
 #include "fcl_stpbv/text_cells.h"
 #include "fcl_stpbv/volume/tessellate.h"
 #include "fcl_stpbv/volume/verify.h"
@@ -21,12 +21,6 @@ namespace fcl_stpbv::tools {
 namespace {
 
 std::string millimetres(double metres) { return detail::formatted("%.3f mm", 1e3 * metres); }
-
-std::string fileText(const StpBv& volume, Format format, const std::string& name) {
-  std::ostringstream text;
-  detail::within(name, [&] { format == Format::sch ? saveSch(text, volume) : saveStpBv(text, volume); });
-  return text.str();
-}
 
 double largest(const PartsReport& report, MeshExcess ConvexPart::*excess) {
   double most = 0;
@@ -81,8 +75,9 @@ void write(const PartsReport& report, const ConversionOptions& options) {
     files.push_back({name, fileText(*report.volumes[k], options.format, name)});
     if (!options.preview.empty()) surfaces.push_back(tessellate(*report.volumes[k]));
   }
+  if (!options.preview.empty())
+    files.push_back({options.preview, detail::colouredText(options.preview, surfaces)});
   detail::atomicWriteAll(files);
-  if (!options.preview.empty()) saveColoured(options.preview, surfaces);
 }
 
 std::string toText(const PartsReport& report) {

@@ -181,15 +181,22 @@ void requireWritable(const std::string& path, const std::string& shown) {
 }
 
 void atomicWriteAll(const std::vector<NamedText>& files) {
+  std::vector<const NamedText*> regular;
+  for (const NamedText& file : files) {
+    struct stat old {};
+    const bool straight = descriptorOf(file.path) >= 0 || (findOld(file.path, old) && !S_ISREG(old.st_mode));
+    if (straight)
+      atomicWrite(file.path, file.content);
+    else
+      regular.push_back(&file);
+  }
   const EndPutOff putOff;
   std::vector<Whole> written;
   try {
-    for (const NamedText& file : files) {
+    for (const NamedText* file : regular) {
       struct stat old {};
-      const bool exists = findOld(file.path, old);
-      if (exists && !S_ISREG(old.st_mode))
-        throw Error(file.path + ": is a device or a pipe, which can hold nothing back; give a file's name");
-      written.push_back(writeBeside(target(file.path), file.content, 0666, exists ? &old : nullptr));
+      const bool exists = findOld(file->path, old);
+      written.push_back(writeBeside(target(file->path), file->content, 0666, exists ? &old : nullptr));
     }
     for (const Whole& whole : written) putInPlace(whole);
   } catch (...) {  // files that are in place have no temporary names any more

@@ -24,9 +24,9 @@ struct NamedText {
 void requireWritable(const std::string& path, const std::string& shown);
 
 /// atomicWrite() for files that belong together: all are written before the first one is renamed to its name.
-/// No devices or pipes. @throws Error as above. All files are then unchanged, unless the rename of a later
-/// file fails (for example in a folder in which files of other users cannot be replaced). In that case the
-/// files renamed before it are new.
+/// Devices, pipes and descriptors are written before that. @throws Error as above. All files are then
+/// unchanged, unless the rename of a later file fails (for example in a folder in which files of other users
+/// cannot be replaced). In that case the files renamed before it are new.
 void atomicWriteAll(const std::vector<NamedText>& files);
 
 /// atomicWrite() for a file that nobody else may change: only its owner has write permission. If the path is

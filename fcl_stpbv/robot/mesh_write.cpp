@@ -1,5 +1,7 @@
 // Writes meshes by assimp as OBJ, STL, PLY or GLB, depending on the name's ending. A file is written
 // completely or not at all.
+#include "fcl_stpbv/robot/mesh_write.h"
+
 #include <assimp/cexport.h>
 #include <assimp/scene.h>
 
@@ -128,6 +130,10 @@ bool canSaveMesh(const std::string& path) { return formatOf(path) != nullptr; }
 void saveMesh(const std::string& path, const TriangleMesh& mesh) { saveColoured(path, {mesh}); }
 
 void saveColoured(const std::string& path, const std::vector<TriangleMesh>& meshes) {
+  atomicWrite(path, colouredText(path, meshes));
+}
+
+std::string detail::colouredText(const std::string& path, const std::vector<TriangleMesh>& meshes) {
   const Format* format = formatOf(path);
   if (format == nullptr) throw Error(path + ": no mesh format of this name; use .obj, .stl, .ply or .glb");
   const bool none =
@@ -141,7 +147,7 @@ void saveColoured(const std::string& path, const std::vector<TriangleMesh>& mesh
   const bool isText = isPly && meshes.size() > 1;
   std::string text = exported(*scene, isText ? "ply" : format->assimpId, path);
   if (isPly && !isText && beginsWithLineFeed(text)) text = exported(*scene, "ply", path);
-  atomicWrite(path, text);
+  return text;
 }
 
 }  // namespace fcl_stpbv

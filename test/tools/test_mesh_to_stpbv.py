@@ -490,6 +490,13 @@ class MeshToStpbv(unittest.TestCase):
             self.assertGreater(report["points"], 100)
         self.refused("cube.txt", "-o", "new.stpbv", "--preview", "p.obj", says=["p.obj: exists", "--force"])
 
+    def test_a_preview_that_cannot_be_written_leaves_no_volume(self):
+        os.symlink("/dev/full", self.at("full.obj"))
+        self.two_pieces("pieces.obj")
+        for arguments in (["cube.txt"], ["pieces.obj", "--parts", "2"]):
+            self.refused(*arguments, "-o", "new.stpbv", "--preview", "full.obj", says=["full.obj: cannot be written"], code=1)
+            self.assertEqual([n for n in os.listdir(self.at(".")) if n.startswith("new")], [])
+
     def test_no_bar_and_no_escape_codes_away_from_a_terminal(self):
         done = self.run_tool("cube.txt", "other.txt", "-o", "out")
         self.assertEqual(done.stderr, "")
