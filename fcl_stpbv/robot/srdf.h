@@ -71,12 +71,14 @@ Srdf loadSrdf(const std::string& path, const RobotModel& robot);
 Srdf loadSrdf(const std::string& path, const RobotModel& robot, LoadFaults& faults);
 
 /// The text of the SRDF at `path` (of an empty one if `path` is ""), with its disable_collisions entries
-/// replaced by `pairs`. Entries with the reason "User" or without a reason stay, and so does everything else.
-/// Entries of `pairs` that the SRDF enables by name are left out. `comments` are written before the new
-/// entries. @throws Error as loadSrdf() does, for a file that is not an SRDF.
+/// replaced by `pairs`. Entries with the reason "User" or without a reason stay, and so does every other
+/// byte. Entries of `pairs` that the SRDF enables by name, or that these entries leave out, are not written.
+/// `comments` are written before the new entries. @throws Error as loadSrdf() does, for a file that is not an
+/// SRDF.
 std::string withPairs(const std::string& path, const std::string& robotName,
                       const std::vector<Srdf::Pair>& pairs, const std::vector<std::string>& comments = {});
-/// withPairs() for an SRDF that was read already; null for an empty one.
+/// withPairs() for an SRDF that was read already; null for an empty one. Entries that loadSrdf() ignored,
+/// because the robot has no such link, stay too.
 std::string withPairs(const Srdf* srdf, const std::string& robotName, const std::vector<Srdf::Pair>& pairs,
                       const std::vector<std::string>& comments = {});
 

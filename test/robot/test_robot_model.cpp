@@ -480,6 +480,37 @@ TEST_CASE(
                        Contains("Never") && !Contains("Adjacent"));
 }
 
+TEST_CASE("an SRDF's text around the pairs stays as it is, and a second run changes nothing") {
+  TemporaryFolder folder;
+  const RobotModel model = parse(link("a") + link("b") + link("c") + joint("j", "revolute", "a", "b") +
+                                 joint("k", "revolute", "b", "c"));
+  const std::vector<Srdf::Pair> pairs{{"a", "b", "Adjacent"}, {"a", "c", "Never"}, {"b", "c", "Adjacent"}};
+  const auto run = [&](const std::string& text) {
+    put(folder / "s.srdf", text);
+    const Srdf srdf = loadSrdf(folder / "s.srdf", model);
+    return withPairs(&srdf, "small", pairs, {"left out -- one"});
+  };
+  const std::string entry = "<disable_collisions link1=\"a\" link2=\"c\"";
+  const std::string other = "\t<disable_collisions link1='a' link2='gripper'  reason='Never' />\n";
+  const std::string head = "<?xml version='1.0'?>\n<!-- <robot> -->\n<robot  name='small'>\n";
+  const std::string text = run(head + "    " + entry + " reason=\"Never\"/>\n" + other + "  " + entry +
+                               " />\n\n</robot>\n<!-- end -->\n");
+  CHECK_THAT(text, Catch::StartsWith(head + other + "  " + entry + " />\n\n    <!-- left out ~- one -->\n") &&
+                       Catch::EndsWith("\n</robot>\n<!-- end -->\n"));
+  CHECK(text.find(entry, text.find(entry) + 1) == std::string::npos);  // the user's entry is enough
+  CHECK(run(text) == text);
+  std::string windows = text;
+  for (std::size_t i = 0; (i = windows.find('\n', i)) != std::string::npos; i += 2)
+    windows.insert(i, 1, '\r');
+  CHECK(run(windows) == windows);
+  const std::string small = run("<robot name=\"small\" />");
+  CHECK_THAT(small, Catch::StartsWith("<robot name=\"small\" >\n") && Catch::EndsWith("/>\n</robot>"));
+  CHECK(run(small) == small);
+  const std::string oneLine =
+      run("<robot name=\"small\">" + entry + " reason=\"Never\"></disable_collisions></robot>");
+  CHECK(run(oneLine) == oneLine);
+}
+
 TEST_CASE("a posture of several groups is taken whole, and nothing of it is left out without a word") {
   TemporaryFolder folder;
   const std::string mimic = joint("m", "revolute", "b", "c", "<mimic joint=\"j\" multiplier=\"2\"/>");
