@@ -304,7 +304,8 @@ def test_the_buffers_of_a_gltf_travel_from_below_its_folder(tmp_path, here_or_th
         assert len(fcl_stpbv.StpBv.load(str(tmp_path / f"volumes/{name}.stpbv")).vertices) == 8
     limits = '<axis xyz="0 0 1"/><limit lower="-1" upper="1" effort="1" velocity="1"/>'
     (tmp_path / "two.urdf").write_text(f"""<robot name="two">
-        <link name="a"><collision><geometry><mesh filename="b.gltf"/></geometry></collision></link><link name="m"/><link name="b"><collision><geometry><sphere radius="0.1"/></geometry></collision></link>
+        <link name="a"><collision><geometry><mesh filename="b.gltf"/></geometry></collision></link><link name="m"/>
+        <link name="b"><collision><geometry><sphere radius="0.1"/></geometry></collision></link>
         <joint name="i" type="revolute"><parent link="a"/><child link="m"/><origin xyz="3 0 0"/>{limits}</joint>
         <joint name="j" type="revolute"><parent link="m"/><child link="b"/><origin xyz="0.5 0 0"/>{limits}</joint></robot>""")
     batch("sample", tmp_path / "two.urdf", "--blocks", 3, "--count", 2, *here_or_there, "-o", tmp_path / "samples")

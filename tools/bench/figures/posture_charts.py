@@ -87,7 +87,8 @@ def boxes_beside(urdf, place):
 def posture_grid_fridge(height=400):
     can = (0.52, 0.17, 0.96)  # the hand's place around it in data/fridge/reach.json
     success_map("posture_grid_fridge", "fridge",
-                "The left hand, by where the feet stand. Cross at 0, 0: around the can where it stands. Outlines: the fridge.", "forward (m)", "upward (m)", lambda value: f"feet {-100 * value:.0f} cm back" if value else "feet in front", height, 0.2,
+                "The left hand, by where the feet stand. Cross at 0, 0: around the can where it stands. Outlines: the fridge.", "forward (m)", "upward (m)",
+                lambda value: f"feet {-100 * value:.0f} cm back" if value else "feet in front", height, 0.2,
                 boxes_beside(PROJECT / "data/fridge/fridge.urdf", can))
 
 

@@ -230,7 +230,8 @@ def robot_size(height=490):
                         ("Bullet GJK, no J", palette.OTHER, 9))}
     own, robot = next(row["vertices"] for row in rows if row["varied"] == "pairs"), data["about"]["robot"]
     small_print = origin({**data, "command": "robot_bench --sizes"},
-                         [f"{ROBOTS.get(robot, robot)} in small steps. Left: its own bodies, {own:.0f} vertices on average. Right: ellipsoids in the boxes around them.", "FCL and Bullet: hulls, distances without J."])
+                         [f"{ROBOTS.get(robot, robot)} in small steps. Left: its own bodies, {own:.0f} vertices on average. Right: ellipsoids in the boxes around them.",
+                          "FCL and Bullet: hulls, distances without J."])
     entries = [(palette.SMOOTH, 7, "this library"), (palette.FCL, 7, "FCL: broadphase; fcl::distance"),
                (palette.METHODS["FCL with gap stop"][0], 11, palette.METHODS["FCL with gap stop"][2]), (palette.OTHER, 9, "Bullet: world; GJK"),
                (palette.NEUTRAL, 7, "line: verdicts, all pairs"), (palette.NEUTRAL, 6, "dashed, open: distances (and J)")]
