@@ -35,7 +35,10 @@ std::shared_ptr<const RobotGeometry> PythonScene::load(const std::string& base,
   if (srdf) loading.warnOfPairs(*robot, bodies, *srdf);
   coverPrimitives(pairs(bodies), bodies, &things);
   loading.warnOfR(*robot, bodies, options);
-  if (measureMeshes) measureExcess(bodies, options.threads), measureExcess(things, options.threads);
+  if (measureMeshes) {
+    measureExcess(bodies, options.threads);
+    measureExcess(things, options.threads);
+  }
   if (around) {
     loading.warnOfR(*around, things, aroundOptions);
     obstacles = obstaclesOf(around, things);  // with their covers
