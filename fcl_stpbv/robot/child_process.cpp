@@ -148,6 +148,8 @@ std::string inChildProcess(const std::string& name, const std::function<std::str
     throw Error(name +
                 ": takes more time to read than a file of its size can need; it is damaged, export it again");
   if (!all.empty() && all[0] == kLacksMemory) refuseWithoutMemory(name);
+  if (signal == SIGKILL)  // not by its own limits, which raise SIGXCPU or let an allocation fail
+    throw PassingError(name + ": its reader was killed, perhaps because memory ran out; run again");
   if (!all.empty() && all[0] == kOutOfMemory)
     throw Error(
         name +

@@ -8,10 +8,13 @@
 #include <catch2/catch.hpp>
 #include <chrono>
 #include <cmath>
+#include <csignal>
 #include <fstream>
 
 #include "fcl_stpbv/error.h"
+#include "fcl_stpbv/robot/child_process.h"
 #include "fcl_stpbv/robot/mesh_file.h"
+#include "fcl_stpbv/robot/passing_error.h"
 #include "fcl_stpbv/robot/robot_model.h"
 #include "test/reference/shapes.h"
 #include "test/reference/volume_files.h"
@@ -267,4 +270,15 @@ TEST_CASE("a hostile robot description costs memory and time in proportion to it
     refused += cost.refused;
   }
   CHECK(refused >= 60);
+}
+
+TEST_CASE("a file whose reader is killed from outside is not called damaged") {
+  const auto read = [] {
+    detail::inChildProcess("m.stl", [](detail::ChildLimits&) -> std::string {
+      std::raise(SIGKILL);
+      return "";
+    });
+  };
+  CHECK_THROWS_AS(read(), detail::PassingError);
+  CHECK_THROWS_WITH(read(), Catch::Contains("m.stl: its reader was killed"));
 }
