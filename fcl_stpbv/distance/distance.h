@@ -22,8 +22,7 @@ enum class DistanceStatus {
   bounded,  ///< not solved up to rounding; the true value lies in [lower, upper]
   /// A pose is not a rigid motion (an entry of its rotation is off by more than 1e-6) or is 1e150 m away. The
   /// distance and the lower bound are minus infinity, the upper bound is infinite; normal and points are
-  /// zero,
-  /// the patches -1.
+  /// zero, the patches -1.
   invalid,
 };
 

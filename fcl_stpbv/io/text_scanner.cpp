@@ -118,6 +118,12 @@ std::string_view withoutPlus(std::string_view number) {
   return number.substr(plus ? 1 : 0);
 }
 
+bool readDecimal(std::string_view word, double& value) {
+  const std::string_view digits = withoutPlus(word);
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  return error == std::errc() && end == digits.data() + digits.size();
+}
+
 std::string_view TextScanner::token(std::string_view what) {
   if (atEnd()) fail("the file ends here, expected " + std::string(what));
   const std::size_t start = at_;
@@ -127,14 +133,10 @@ std::string_view TextScanner::token(std::string_view what) {
 
 double TextScanner::number(std::string_view what) {
   const std::string_view word = token(what);
-  const std::string_view digits = withoutPlus(word);
   double value = 0;
-  const auto result = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-  const bool whole = result.ptr == digits.data() + digits.size();
-  if (result.ec != std::errc() || !whole || !std::isfinite(value)) {
+  if (!readDecimal(word, value) || !std::isfinite(value))
     fail("got " + quoted(word) + ", expected " + std::string(what) + ", a finite number");
-  }
-  digits_ = std::max(digits_, significantDigits(digits));
+  digits_ = std::max(digits_, significantDigits(withoutPlus(word)));
   return value;
 }
 

@@ -40,6 +40,9 @@ std::string quoted(std::string_view word);
 /// it.
 std::string_view withoutPlus(std::string_view number);
 
+/// Reads a word that is a decimal number as a whole; it may be infinite or NaN. @returns whether it is one.
+bool readDecimal(std::string_view word, double& value);
+
 /// Walks over whitespace-separated tokens. Every failure throws Error "name:line: got ..., expected ...".
 class TextScanner {
  public:

@@ -1,8 +1,7 @@
 // The best ways to cut a part in two.
 // 1. Make the two hulls for every plane of cutPlanes() and sort the planes by the hulls' total volume.
 // 2. Measure the excess of the halves of the first planes. Stop measuring a plane when one half alone is
-// worse
-//    than the best scores so far.
+//    worse than the best scores so far.
 // 3. Keep the two planes with the least volume and, of the others, the two with the best score.
 #include "fcl_stpbv/parts/part_cuts.h"
 

@@ -100,20 +100,17 @@ ordered_json inputsOf(const RobotConversion& conversion, std::vector<std::string
 // The report reads the inputs again after their key was computed. If one was saved meanwhile, the folder
 // would be up to date with a file that it was not made from.
 void requireUnchanged(const ordered_json& before, const ordered_json& after, const CollisionReport& report) {
-  const auto refuse = [](const std::string& file) {
-    throw PassingError(file + ": changed while it was read; run again");
-  };
   for (const char* what : {"urdf", "srdf", "obstacles"})
-    if (before.contains(what) && before[what] != after[what]) refuse(before[what]["file"]);
+    if (before.contains(what) && before[what] != after[what]) refuseChanged(before[what]["file"]);
   const ordered_json meshes = before.value("meshes", ordered_json::array());
   const ordered_json again = after.value("meshes", ordered_json::array());
   for (std::size_t i = 0; i < meshes.size(); ++i)
-    if (i >= again.size() || meshes[i] != again[i]) refuse(meshes[i][0]);
+    if (i >= again.size() || meshes[i] != again[i]) refuseChanged(meshes[i][0]);
   for (const Body& body : report.geometry->bodies)
     if (!body.file.empty() &&
         std::count(meshes.begin(), meshes.end(), ordered_json{body.file, body.meshKey}) == 0)
-      refuse(body.file);
-  if (before != after) refuse(before["urdf"]["file"]);
+      refuseChanged(body.file);
+  if (before != after) refuseChanged(before["urdf"]["file"]);
 }
 
 }  // namespace

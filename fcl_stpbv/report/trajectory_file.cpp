@@ -2,7 +2,6 @@
 #include "fcl_stpbv/report/trajectory_file.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <set>
 
@@ -42,24 +41,30 @@ std::string_view trimmed(std::string_view text) {
   return text;
 }
 
+// The quote that ends what begins with the quote at `begin`; the text's size or more if there is none. Two
+// quotes stand for one (RFC 4180).
+std::size_t closingQuote(std::string_view text, std::size_t begin) {
+  std::size_t i = begin + 1;
+  for (; i < text.size() && (text[i] != '"' || text.substr(i + 1, 1) == "\""); ++i)
+    if (text[i] == '"') ++i;
+  return i;
+}
+
 // Removes the first cell of a line and the comma after it; `more` tells whether there was one. In quotes a
-// comma belongs to the cell, and two quotes stand for one (RFC 4180).
+// comma belongs to the cell.
 std::string nextCell(std::string_view& line, bool& more) {
   line = trimmed(line);
-  std::string inQuotes;
-  std::size_t i = 0;
-  if (!line.empty() && line.front() == '"') {
-    for (i = 1; i < line.size() && (line[i] != '"' || line.substr(i + 1, 1) == "\""); ++i) {
-      if (line[i] == '"') ++i;
-      inQuotes += line[i];
-    }
-  }
-  const bool quoted = i > 0 && i < line.size();
-  const std::size_t comma = line.find(',', quoted ? i : 0);
+  const std::size_t end = line.substr(0, 1) == "\"" ? closingQuote(line, 0) : line.size();
+  const bool quoted = end < line.size();
+  const std::size_t comma = line.find(',', quoted ? end : 0);
   const std::string_view cell = trimmed(line.substr(0, comma));
   more = comma != std::string_view::npos;
   line.remove_prefix(more ? comma + 1 : line.size());
-  return quoted && cell.size() == i + 1 ? inQuotes : std::string(cell);
+  if (!quoted || cell.size() != end + 1) return std::string(cell);
+  std::string inQuotes(cell.substr(1, end - 1));
+  for (std::size_t i = inQuotes.find('"'); i != std::string::npos; i = inQuotes.find('"', i + 1))
+    inQuotes.erase(i, 1);
+  return inQuotes;
 }
 
 std::vector<std::string> cellsOf(std::string_view line) {
@@ -74,19 +79,12 @@ std::size_t endOfNames(std::string_view text) {
   for (std::size_t i = 0; i < text.size(); ++i) {
     if (text[i] == '\n') return i;
     if (begins && text[i] == '"') {
-      for (++i; i < text.size() && (text[i] != '"' || text.substr(i + 1, 1) == "\""); ++i)
-        if (text[i] == '"') ++i;
+      i = closingQuote(text, i);
       if (i >= text.size()) return std::min(text.find('\n'), text.size());
     }
     begins = text[i] == ',' || (begins && (text[i] == ' ' || text[i] == '\t'));
   }
   return text.size();
-}
-
-bool isNumber(const std::string& cell, double& value) {
-  const std::string_view digits = withoutPlus(cell);
-  const auto read = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-  return read.ec == std::errc() && read.ptr == digits.data() + digits.size();
 }
 
 Columns fromCsv(const std::string& text, const std::string& path) {
@@ -105,7 +103,7 @@ Columns fromCsv(const std::string& text, const std::string& path) {
     const std::vector<std::string> cells = cellsOf(line);
     if (columns.names.empty()) {
       double value = 0;
-      if (std::all_of(cells.begin(), cells.end(), [&](const auto& cell) { return isNumber(cell, value); }))
+      if (std::all_of(cells.begin(), cells.end(), [&](const auto& cell) { return readDecimal(cell, value); }))
         throw Error(place + ": got numbers; the first line must name joints");
       columns.names = cells;
       const auto time = std::find(cells.begin(), cells.end(), "time");
@@ -118,7 +116,7 @@ Columns fromCsv(const std::string& text, const std::string& path) {
     std::vector<double> row;
     for (const std::string& cell : cells) {
       double value = 0;
-      if (!isNumber(cell, value))
+      if (!readDecimal(cell, value))
         throw Error(place + ": got " + detail::quoted(cell) + ", expected a number" +
                     (cell.find_first_of("; \t") == std::string::npos ? "" : "; commas stand between values"));
       row.push_back(value);

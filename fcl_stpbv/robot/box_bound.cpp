@@ -1,7 +1,6 @@
 // A lower bound on the distance of a pair over a box of joint values (docs/proofs.md: levers and planes).
 // 1. Take the distance at the box's middle, minus the sum over the coordinates of the Lipschitz constant
-// times
-//    half the box's width.
+//    times half the box's width.
 // 2. Where that does not decide, take planes between the bodies, and bound how far the bodies' points move
 //    along their normals.
 #include "fcl_stpbv/robot/box_bound.h"

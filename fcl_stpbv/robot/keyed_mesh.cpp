@@ -34,7 +34,7 @@ KeyedMesh::KeyedMesh(std::string file, const Eigen::Vector3d& scale)
 
 KeyedMesh::KeyedMesh(std::string file, const Eigen::Vector3d& scale, const std::string& key)
     : KeyedMesh(std::move(file), scale) {
-  if (!key.empty() && key_ != key) throw PassingError(file_ + ": changed while it was read; run again");
+  if (!key.empty() && key_ != key) refuseChanged(file_);
 }
 
 TriangleMesh KeyedMesh::mesh() const { return mesh_ ? *mesh_ : meshOf(text_, file_, scale_); }

@@ -73,13 +73,7 @@ class Builder {
     std::vector<Body> bodies(shapes.size());
     std::vector<std::string> wrong(shapes.size());
     const auto build = [&](std::size_t i) {
-      try {
-        bodies[i] = bodyOf(shapes[i]);
-      } catch (const PassingError&) {
-        throw;
-      } catch (const Error& error) {
-        wrong[i] = shapes[i].shape->place + ": " + error.what();
-      }
+      wrong[i] = shapeFault(shapes[i].shape->place, [&] { bodies[i] = bodyOf(shapes[i]); });
     };
     shareOut(shapes.size(), options_.threads, build, [&](std::size_t i) {
       if (options_.progress) options_.progress(i, shapes.size(), nameOf(shapes[i]));
@@ -170,16 +164,12 @@ class Builder {
   }
 
   void addMesh(const std::string& link, const ShapeSource& source, Body& body) {
-    try {
+    namingFile(body.file, [&] {
       if (isFlat(options_, link))
         makeHull(source.points(), body);
       else
         makeVolume(options_, link, source, cache_, body);
-    } catch (const PassingError&) {
-      throw;
-    } catch (const Error& error) {
-      throw namingFile(body.file, error);
-    }
+    });
   }
 
   void addPrimitive(const std::string& link, const ShapeModel& shape, Body& body) const {

@@ -12,7 +12,6 @@
 #include "fcl_stpbv/robot/link_geometry.h"
 #include "fcl_stpbv/robot/link_volume.h"
 #include "fcl_stpbv/robot/passing_error.h"
-#include "fcl_stpbv/robot/shape_source.h"
 #include "fcl_stpbv/robot/share_out.h"
 #include "fcl_stpbv/robot/volume_cache.h"
 
@@ -85,16 +84,12 @@ class LinkParts::Store {
     const Body& whole = whole_.bodies[at(index)];
     std::vector<Body> bodies;
     if (whole.file.empty() || most < 1) return bodies;
-    try {
+    namingFile(whole.file, [&] {
       const ConvexParts& parts = partsOf(whole, most);
       int number = 0;
       for (const ConvexPart& part : parts.parts)
         bodies.push_back(partOf(whole, index, ++number, part, parts.pieces - parts.closedPieces));
-    } catch (const PassingError&) {
-      throw;
-    } catch (const Error& error) {
-      throw namingFile(whole.file, error);
-    }
+    });
     return bodies;
   }
 

@@ -57,10 +57,8 @@ std::string inSmallLetters(std::string_view word) {
 }
 
 bool readMeshNumber(std::string_view word, double& value) {
+  if (!readDecimal(word, value) || !std::isfinite(value)) return false;
   word = withoutPlus(word);
-  const auto result = std::from_chars(word.data(), word.data() + word.size(), value);
-  if (result.ec != std::errc() || result.ptr != word.data() + word.size() || !std::isfinite(value))
-    return false;
   if (losesDecimals(word)) return false;
   word.remove_prefix(std::min(word.find_first_not_of("-0"), word.size()));
   return std::min(word.find_first_not_of("0123456789"), word.size()) <= kMostDigits;

@@ -21,10 +21,13 @@ const fcl::CollisionGeometryd& OwnShapes::shape(int body) {
   std::shared_ptr<const fcl::CollisionGeometryd>& shape = shapes_[body];
   if (shape) return *shape;
   const Body& whole = whole_->bodies[at(body)];
-  shape = whole.primitive ? whole.primitive : whole.geometry;
-  if (whole.file.empty()) return *shape;
-  const TriangleMesh mesh = KeyedMesh(whole).mesh();
-  shape = mesh.triangles.empty() ? hullGeometry(mesh.vertices) : triangleTree(mesh.vertices, mesh.triangles);
+  if (whole.file.empty()) {
+    shape = whole.primitive ? whole.primitive : whole.geometry;
+  } else {
+    const TriangleMesh mesh = KeyedMesh(whole).mesh();
+    shape =
+        mesh.triangles.empty() ? hullGeometry(mesh.vertices) : triangleTree(mesh.vertices, mesh.triangles);
+  }
   return *shape;
 }
 

@@ -2,7 +2,6 @@
 #include "fcl_stpbv/robot/point_lines.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 #include "fcl_stpbv/error.h"
@@ -13,12 +12,6 @@ namespace fcl_stpbv::detail {
 namespace {
 
 MeshWords pointWords(std::string_view line) { return wordsOf(line.substr(0, line.find('#'))); }
-
-bool readDecimal(std::string_view word, double& value) {
-  const std::string_view digits = withoutPlus(word);
-  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-  return error == std::errc() && end == digits.data() + digits.size();
-}
 
 }  // namespace
 

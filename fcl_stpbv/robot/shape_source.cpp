@@ -82,19 +82,17 @@ class Reader {
   void warn(const std::string& message) { sources_.warnings.push_back(robot_.path + ": " + message); }
 
   void add(ShapeSource source, const IsCached& isCached) {
-    try {
-      if (source.shape->kind == ShapeModel::Kind::mesh) {
-        source.file = paths_.resolve(source.shape->mesh);
-        const KeyedMesh mesh(source.file, source.shape->scale);
-        source.key = mesh.key();
-        if (!isCached(robot_.links[static_cast<std::size_t>(source.link)].name, source.key))
-          source.keep(mesh);
-      }
+    std::string fault = shapeFault(source.shape->place, [&] {
+      if (source.shape->kind != ShapeModel::Kind::mesh) return;
+      source.file = paths_.resolve(source.shape->mesh);
+      const KeyedMesh mesh(source.file, source.shape->scale);
+      source.key = mesh.key();
+      if (!isCached(robot_.links[static_cast<std::size_t>(source.link)].name, source.key)) source.keep(mesh);
+    });
+    if (fault.empty()) {
       sources_.shapes.push_back(std::move(source));
-    } catch (const PassingError&) {
-      throw;
-    } catch (const Error& error) {
-      faults_.shapes.push_back(source.shape->place + ": " + error.what());
+    } else {
+      faults_.shapes.push_back(std::move(fault));
       sources_.incomplete.insert(source.link);
     }
   }
@@ -106,11 +104,6 @@ class Reader {
 };
 
 }  // namespace
-
-Error namingFile(const std::string& file, const Error& error) {
-  const std::string message = error.what();
-  return Error(message.find(file) != std::string::npos ? message : file + ": " + message);
-}
 
 const std::vector<Eigen::Vector3d>& ShapeSource::points() const {
   if (points_.empty()) keep(KeyedMesh(file, shape->scale, key));

@@ -15,9 +15,6 @@ namespace fcl_stpbv::detail {
 
 class KeyedMesh;
 
-/// The error, with the file's name before its message unless the message contains it already.
-Error namingFile(const std::string& file, const Error& error);
-
 /// One shape of one link, and the file of a mesh.
 struct ShapeSource {
   int link = -1;

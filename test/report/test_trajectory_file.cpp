@@ -26,6 +26,18 @@ std::string saidOf(const std::string& type, const Eigen::VectorXd& from, const E
 
 Eigen::VectorXd of(double angle) { return Eigen::VectorXd::Constant(1, angle); }
 
+/// The last way point of a file way.csv of this text, for a robot of two joints of these names.
+Eigen::VectorXd lastPoint(const std::string& text, const std::string& first, const std::string& second) {
+  const TemporaryFolder folder;
+  const std::string path = folder / "way.csv";
+  std::ofstream(path) << text;
+  const Kinematics kinematics(std::make_shared<const RobotModel>(
+      parseUrdf(test::robot(link("a") + link("b") + link("c") + joint(first, "revolute", "a", "b") +
+                            joint(second, "revolute", "b", "c")),
+                "small.urdf")));
+  return readTrajectory(path, kinematics, Eigen::VectorXd::Zero(2)).points.back();
+}
+
 }  // namespace
 
 TEST_CASE("a turn by more than half a turn between two way points is told, with where the short one ends") {
@@ -57,32 +69,14 @@ TEST_CASE("half a turn, a long slide and a joint with limits are nothing to tell
 }
 
 TEST_CASE("a name with line feeds is read in quotes, and lines are counted with them") {
-  const TemporaryFolder folder;
-  const std::string path = folder / "way.csv";
-  const auto read = [&](const std::string& text) {
-    std::ofstream(path) << text;
-    const Kinematics kinematics(std::make_shared<const RobotModel>(
-        parseUrdf(test::robot(link("a") + link("b") + link("c") + joint("x&#10;y", "revolute", "a", "b") +
-                              joint("l&#10;&quot;", "revolute", "b", "c")),
-                  "small.urdf")));
-    return readTrajectory(path, kinematics, Eigen::VectorXd::Zero(2)).points.back();
-  };
+  const auto read = [](const std::string& text) { return lastPoint(text, "x&#10;y", "l&#10;&quot;"); };
   CHECK(read("\n\"x\ny\",\"l\n\"\"\"\n0,0\n0.5,0.25\n") == Eigen::Vector2d(0.5, 0.25));
   CHECK_THROWS_WITH(read("\n\"x\ny\",\"l\n\"\"\"\n0,0\n1\n"), Catch::Contains("way.csv:6: has 1 values"));
   CHECK_THROWS_WITH(read("\"x,l\n0,0\n1,1\n"), Catch::Contains("no moving joint '\"x'"));
 }
 
 TEST_CASE("names in quotes are read as CSV files quote them") {
-  const TemporaryFolder folder;
-  const std::string path = folder / "way.csv";
-  const auto read = [&](const std::string& text) {
-    std::ofstream(path) << text;
-    const Kinematics kinematics(std::make_shared<const RobotModel>(
-        parseUrdf(test::robot(link("a") + link("b") + link("c") + joint("x,y", "revolute", "a", "b") +
-                              joint("l&quot;r", "revolute", "b", "c")),
-                  "small.urdf")));
-    return readTrajectory(path, kinematics, Eigen::VectorXd::Zero(2)).points.back();
-  };
+  const auto read = [](const std::string& text) { return lastPoint(text, "x,y", "l&quot;r"); };
   CHECK(read("\"x,y\",\"l\"\"r\"\n0,0\n0.5,0.25\n") == Eigen::Vector2d(0.5, 0.25));
   CHECK(read(" \"l\"\"r\" ,\t\"x,y\" \r\n\"0\",0\r\n0.5, \"0.25\" \r\n") == Eigen::Vector2d(0.25, 0.5));
   CHECK(read("l\"r,\"x,y\"\n0,0\n0.5,0.25") == Eigen::Vector2d(0.25, 0.5));

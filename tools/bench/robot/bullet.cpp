@@ -4,15 +4,13 @@
 #include <algorithm>
 
 #include "fcl_stpbv/adapter/stp_bv_geometry.h"
-#include "fcl_stpbv/convex/hull_graph.h"
 #include "fcl_stpbv/numbers.h"
 #include "tools/bench/robot/peer.h"
 
 #ifdef FCL_STPBV_BULLET
-#include <BulletCollision/NarrowPhaseCollision/btGjkPairDetector.h>
-#include <BulletCollision/NarrowPhaseCollision/btPointCollector.h>
-#include <BulletCollision/NarrowPhaseCollision/btVoronoiSimplexSolver.h>
 #include <btBulletCollisionCommon.h>
+
+#include "tools/bench/bullet_hulls.h"
 #endif
 
 namespace fcl_stpbv::benchmark {
@@ -22,10 +20,6 @@ namespace fcl_stpbv::benchmark {
 namespace {
 
 using detail::at;
-
-btVector3 toBullet(const Eigen::Vector3d& v) {
-  return {static_cast<btScalar>(v.x()), static_cast<btScalar>(v.y()), static_cast<btScalar>(v.z())};
-}
 
 class Bullet : public Peer, private btOverlapFilterCallback {
  public:
@@ -38,11 +32,7 @@ class Bullet : public Peer, private btOverlapFilterCallback {
     world_.getPairCache()->setOverlapFilterCallback(this);
     for (std::size_t i = 0; i < bodies.size(); ++i) {
       shapes_.push_back(std::make_unique<btConvexHullShape>());
-      const detail::HullGraph& hull = asStpBv(bodies[i].geometry.get())->hull();
-      for (int v = 0; v < hull.vertexCount(); ++v)
-        shapes_.back()->addPoint(toBullet(hull.point(v) + hull.centre()), false);
-      shapes_.back()->recalcLocalAabb();
-      shapes_.back()->setMargin(0);
+      fill(*shapes_.back(), asStpBv(bodies[i].geometry.get())->hull());
       objects_.push_back(std::make_unique<btCollisionObject>());
       objects_.back()->setCollisionShape(shapes_.back().get());
       objects_.back()->setUserIndex(static_cast<int>(i));
@@ -72,14 +62,10 @@ class Bullet : public Peer, private btOverlapFilterCallback {
     place(q);
     long meet = 0;
     for (const CheckedPair& pair : robot_.pairs) {
-      btGjkPairDetector detector(shapes_[at(pair.body)].get(), shapes_[at(pair.other)].get(), &simplex_,
-                                 nullptr);
-      btGjkPairDetector::ClosestPointInput input;
-      input.m_transformA = objects_[at(pair.body)]->getWorldTransform();
-      input.m_transformB = objects_[at(pair.other)]->getWorldTransform();
-      btPointCollector result;
-      detector.getClosestPoints(input, result, nullptr);
-      meet += !result.m_hasResult;
+      const std::size_t a = at(pair.body), b = at(pair.other);
+      meet += !nearestPoints(*shapes_[a], objects_[a]->getWorldTransform(), *shapes_[b],
+                             objects_[b]->getWorldTransform(), simplex_)
+                   .m_hasResult;
     }
     return meet;
   }
@@ -90,9 +76,7 @@ class Bullet : public Peer, private btOverlapFilterCallback {
     for (std::size_t i = 0; i < objects_.size(); ++i) {
       const Body& body = robot_.geometry->bodies[i];
       const Eigen::Isometry3d pose = state_.link[at(body.link)] * body.pose;
-      btMatrix3x3 rotation;
-      for (int row = 0; row < 3; ++row) rotation[row] = toBullet(Eigen::Vector3d(pose.linear().row(row)));
-      objects_[i]->setWorldTransform(btTransform(rotation, toBullet(Eigen::Vector3d(pose.translation()))));
+      objects_[i]->setWorldTransform(toBullet(pose));
     }
   }
 
