@@ -34,4 +34,9 @@ Vector3d VertexCap::furthest(const Vector3d& d, const Vector3d* vertices, int co
   return furthest_;
 }
 
+VertexList VertexCap::candidates(const Vector3d& n, double chord, const Vector3d* vertices, int count) const {
+  const bool known = count_ > 0 && !full_ && (n - axis_).norm() + chord <= kChord;
+  return known ? VertexList{near_.data(), count_} : VertexList{vertices, count};
+}
+
 }  // namespace fcl_stpbv::detail

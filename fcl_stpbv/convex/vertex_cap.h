@@ -11,11 +11,22 @@
 
 namespace fcl_stpbv::detail {
 
+/// Some of a polytope's vertices, one after the other in memory.
+struct VertexList {
+  const Eigen::Vector3d* first;
+  int count;
+};
+
 /// The cache of one query for one polytope. Each call changes it, so threads must not share one.
 class VertexCap {
  public:
   /// The vertex furthest along `d` (any length), up to rounding. All calls must be for the same polytope.
   Eigen::Vector3d furthest(const Eigen::Vector3d& d, const Eigen::Vector3d* vertices, int count);
+
+  /// The vertices that can be furthest along unit vectors within the distance `chord` of the unit vector `n`:
+  /// those of the cache if it knows all of them, otherwise all vertices.
+  VertexList candidates(const Eigen::Vector3d& n, double chord, const Eigen::Vector3d* vertices,
+                        int count) const;
 
  private:
   static constexpr int kRoom = 96;

@@ -5,9 +5,10 @@
 // 2. Otherwise EPA (convex/epa.h) on the difference of the cores. When it is near the answer, Newton's method
 //    on the features there (shape_newton.h) gives the maximum up to rounding. For shapes with known features,
 //    a region around the maximum is proven, and EPA's faces there are removed from the search.
-// 3. Candidates for the two points opposite each other are those of the answer, points where cores cross
-//    without a common volume, and points of the features around and of parallel faces.
-// 4. Newton's method gives the last digits of normal and points, if step 2 did not.
+// 3. For curved shapes Newton's method gives the last digits of normal and points, if step 2 did not.
+// 4. If it fails, and for flat shapes, candidates for the two points opposite each other are those of the
+//    answer, points where cores cross without a common volume, and points of the features around and of
+//    parallel faces. Where they are not exact, Newton's method is tried from them.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -120,7 +121,7 @@ Distance overlapping(const Pair& p, const Pair::Gjk& found) {
   }
   std::optional<OppositePoints> top;
   const auto opposite = [&](double angle) {
-    return nearestOnFeatures(p.a, p.b, p.pose, epa.n, epa.gap, epa.onA, angle, p.rounding);
+    return nearestOnFeatures(p.a, p.b, p.pose, {epa.n, epa.gap, epa.onA, angle}, p.rounding);
   };
   // Likely error of the normal (rad), if the difference's radii of curvature are much larger than the depth.
   // Otherwise the error may be any angle.
@@ -139,21 +140,25 @@ Distance overlapping(const Pair& p, const Pair::Gjk& found) {
     epa.run(maximum);
   else
     epa.run();
-  epa.offer(onA, toB);  // the answer if the cores cross without a common volume, as two segments do
-  if (epa.off() > p.rounding) offerAround(p, epa);
-  if (epa.off() > p.rounding) offerToAndFro(p, epa);
-  const bool done = top && top->gap == epa.gap;
-  if (!done && (p.curved() || epa.off() > p.rounding || !(epa.bound - epa.gap <= p.rounding))) {
+  // Moves to the maximum on the features near the answer. False if there is none.
+  const auto polish = [&] {
     const double likely = likelyOff();
     top = opposite(std::min(likely, Pair::kWidest));
     if (!top && likely < Pair::kWidest) top = opposite(Pair::kWidest);
     if (!top && epa.gap > 0.0) top = oppositeLevel(p, epa.n);  // apart, where GJK could not tell
-    if (top) {
-      epa.n = top->n;
-      epa.gap = top->gap;
-      epa.onA = top->onA;
-      if (epa.gap > 0.0) epa.bound = std::min(epa.bound, top->toB.norm());
-    }
+    if (!top) return false;
+    epa.n = top->n;
+    epa.gap = top->gap;
+    epa.onA = top->onA;
+    if (epa.gap > 0.0) epa.bound = std::min(epa.bound, top->toB.norm());
+    return true;
+  };
+  const bool isPolished = (top && top->gap == epa.gap) || (p.curved() && polish());
+  if (!isPolished) {
+    epa.offer(onA, toB);  // the answer if the cores cross without a common volume, as two segments do
+    if (epa.off() > p.rounding) offerAround(p, epa);
+    if (epa.off() > p.rounding) offerToAndFro(p, epa);
+    if (p.curved() || epa.off() > p.rounding || !(epa.bound - epa.gap <= p.rounding)) polish();
   }
   Distance result = p.inWorld(epa.n, epa.onA, epa.gap * epa.n);
   const double upper = std::max(epa.bound, epa.gap);

@@ -2,8 +2,9 @@
 // curved surfaces by chords. So when its bounds agree up to rounding, its normal is only accurate to the
 // square root of that.
 //
-// 1. Try the features within the possible error of the normal, the flattest ones first; then those at the
-//    normal itself.
+// 1. Try the features on which the search ended, if the caller knows them. Then those within the possible
+//    error of the normal, the flattest ones first; then those at the normal itself. Features whose normal is
+//    further away than that error are given up.
 // 2. Flat faces and edges fix the normal, or let it turn one way. Two edges fix it between them. Else
 //    Newton's step with both radii of curvature (turning.h).
 // 3. The witness point is taken on the more strongly curved feature. The other point is opposite it.
@@ -18,6 +19,7 @@
 
 #include "fcl_stpbv/convex/onto_core.h"
 #include "fcl_stpbv/convex/support.h"
+#include "fcl_stpbv/convex/vertex_cap.h"
 #include "fcl_stpbv/convex/vertex_set.h"
 #include "fcl_stpbv/distance/turning.h"
 
@@ -36,10 +38,13 @@ class ShapeNear {
     if (shape.kind != ShapeKind::polytope || shape.vertexCount <= kFew) return;
     const double below = 2.0 * rounding + 8.0 * shape.reach * angle;
     std::array<int, kFew> which;
-    const int count =
-        fromHeight(n.dot(shape.support(n)) - below, n, shape.vertices, shape.vertexCount, which.data(), kFew);
+    const double top = n.dot(shape.support(n));
+    const VertexList all = shape.cap
+                               ? shape.cap->candidates(n, 4.0 * angle, shape.vertices, shape.vertexCount)
+                               : VertexList{shape.vertices, shape.vertexCount};
+    const int count = fromHeight(top - below, n, all.first, all.count, which.data(), kFew);
     if (count > kFew) return;
-    for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) vertex_[i] = shape.vertices[which[i]];
+    for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) vertex_[i] = all.first[which[i]];
     few_ = shape;
     few_->vertices = vertex_.data();
     few_->vertexCount = count;
@@ -146,17 +151,20 @@ struct Facing {
   }
 };
 
-std::optional<OppositePoints> onFeaturesOf(Facing facing, Vector3d onA, double rounding) {
+/// Newton's method from `facing` and its normal. No value if the normal turns by more than `widest` (rad).
+std::optional<OppositePoints> onFeaturesOf(Facing facing, Vector3d onA, double widest, double rounding) {
   constexpr int kSteps = 8;
   // After a step of this size (rad) the next one is rounding. On a generator the point is off by the last
   // step.
   constexpr double kLast = 1e-9, kLastOnGenerator = 1e-14, kAtRest = 1e-7;
+  const Vector3d start = facing.n;
   double step = 0.0;
   facing.support();
   for (int i = 0; i < kSteps; ++i) {
     const Vector3d before = facing.n;
     if (!facing.look(onA, onA + facing.gap * before)) return {};
     facing.turn();
+    if (!((facing.n - start).norm() <= widest)) return {};
     facing.support();
     onA = facing.point(onA);
     step = (facing.n - before).norm();
@@ -175,18 +183,17 @@ std::optional<OppositePoints> onFeaturesOf(Facing facing, Vector3d onA, double r
 }  // namespace
 
 std::optional<OppositePoints> nearestOnFeatures(const Shape& a, const Shape& b, const RelativePose& pose,
-                                                const Vector3d& n, double gap, const Vector3d& onA,
-                                                double angle, double rounding) {
+                                                const NearNormal& known, double rounding) {
   constexpr double kFiner = 1e-3;
-  const ShapeNear nearA(a, n, angle, rounding), nearB(b, pose.opposite(n), angle, rounding);
+  constexpr double kOvershoot = 2.0;  // of a step of Newton's method, in errors of the known normal
+  const Vector3d& n = known.n;
+  const ShapeNear nearA(a, n, known.angle, rounding), nearB(b, pose.opposite(n), known.angle, rounding);
   const bool isWhole = nearA.isWhole() && nearB.isWhole();
-  const double most = 2.0 * std::max(a.reach, b.reach);
-  for (double within = angle;; within *= kFiner) {
-    if (!(most * within > rounding)) within = 0.0;
-    // These tolerances include all features that can face each other after a turn by `within`.
-    const double levelA = 2.0 * a.reach * within + rounding, levelB = 2.0 * b.reach * within + rounding;
-    std::optional<OppositePoints> found = onFeaturesOf(
-        {nearA.shape(), nearB.shape(), pose, levelA, levelB, n, {}, {}, {}, {}, 0.0}, onA, rounding);
+  // The answer on the features between the support points along `n` and these heights (m).
+  const auto onFeatures = [&](double levelA, double levelB) {
+    std::optional<OppositePoints> found =
+        onFeaturesOf({nearA.shape(), nearB.shape(), pose, levelA, levelB, n, {}, {}, {}, {}, 0.0}, known.onA,
+                     kOvershoot * known.angle, rounding);
     if (found && !isWhole) {
       const double gapOfAll = ConvexDifference(a, b, pose).support(found->n).gap;
       if (gapOfAll >= found->gap - rounding)
@@ -194,8 +201,17 @@ std::optional<OppositePoints> nearestOnFeatures(const Shape& a, const Shape& b, 
       else
         found.reset();
     }
-    if (found && found->gap >= gap - rounding) return found;
-    if (!(within > 0.0)) return {};
+    if (found && !(found->gap >= known.gap - rounding)) found.reset();
+    return found;
+  };
+  if (known.featureA >= 0.0)
+    if (auto found = onFeatures(known.featureA + rounding, known.featureB + rounding)) return found;
+  const double most = 2.0 * std::max(a.reach, b.reach);
+  for (double within = known.angle;; within *= kFiner) {
+    if (!(most * within > rounding)) within = 0.0;
+    // These heights include all features that can face each other after a turn by `within`.
+    auto found = onFeatures(2.0 * a.reach * within + rounding, 2.0 * b.reach * within + rounding);
+    if (found || !(within > 0.0)) return found;
   }
 }
 

@@ -19,12 +19,21 @@ struct OppositePoints {
   Eigen::Vector3d toB{0, 0, 0};  ///< from there to the second core's, `gap` along `n` to rounding
 };
 
+/// What a search knows about the widest gap between two cores. Frame of the first shape.
+struct NearNormal {
+  Eigen::Vector3d n;    ///< unit, from the first shape to the second
+  double gap;           ///< along it (m)
+  Eigen::Vector3d onA;  ///< a point of the first core near the answer's
+  double angle;         ///< error of `n` (rad)
+  /// The answer's features probably reach from the support points along `n` down to these heights (m); not
+  /// used if negative.
+  double featureA = -1.0, featureB = -1.0;
+};
+
 /// The widest gap between the cores of two bounded shapes, with the two points; for cores apart these are the
-/// nearest points. The input is the result of a search: a normal `n` within `angle` (rad) of the answer's
-/// normal, its gap, and a point `onA` of the first core near the answer's. Lengths within `rounding` (m)
-/// count as equal. No value if the features near `n` do not contain an answer with at least that gap.
+/// nearest points. Lengths within `rounding` (m) count as equal. No value if the features near the known
+/// normal do not contain an answer with at least its gap.
 std::optional<OppositePoints> nearestOnFeatures(const Shape& a, const Shape& b, const RelativePose& pose,
-                                                const Eigen::Vector3d& n, double gap,
-                                                const Eigen::Vector3d& onA, double angle, double rounding);
+                                                const NearNormal& known, double rounding);
 
 }  // namespace fcl_stpbv::detail

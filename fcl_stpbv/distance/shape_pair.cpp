@@ -65,7 +65,7 @@ using Pair = ShapePair;
 using Corner = Pair::Corner;
 using Gjk = Pair::Gjk;
 
-/// Whether (a, b) is the canonical order of the pair: by kind, then size, then position.
+/// Whether (a, b) is the canonical order of the pair: by kind, size, position, then corners.
 bool comesFirst(const Shape& a, const Isometry3d& poseA, const Shape& b, const Isometry3d& poseB) {
   if (a.unbounded() != b.unbounded()) return a.unbounded();
   if (a.kind != b.kind) return a.kind < b.kind;
@@ -80,7 +80,13 @@ bool comesFirst(const Shape& a, const Isometry3d& poseA, const Shape& b, const I
   }
   const double* x = poseA.data();
   const double* y = poseB.data();
-  return std::lexicographical_compare(x, x + 16, y, y + 16);
+  if (!std::equal(x, x + 16, y)) return std::lexicographical_compare(x, x + 16, y, y + 16);
+  if (!Pair::isHull(a)) return false;
+  const bool areTriangles = a.kind == ShapeKind::triangle;
+  const std::ptrdiff_t count = 3 * (areTriangles ? 3 : a.vertexCount);
+  const double* u = (areTriangles ? a.corner.data() : a.vertices)->data();
+  const double* v = (areTriangles ? b.corner.data() : b.vertices)->data();
+  return std::lexicographical_compare(u, u + count, v, v + count);
 }
 
 /// Starts from the line of the centres, because a search that starts near the answer evaluates too few
@@ -127,6 +133,19 @@ Distance asFound(const Pair& p, const Gjk& found, const SeenGap& widest) {
                  std::max(found.upper, widest.gap));
 }
 
+/// Sets the features on which the corners of a search's simplex lie. A polytope has so many features within
+/// the error of a normal that the simplex tells more than the normal.
+void setFeatures(const Pair& p, const Gjk& found, NearNormal& known) {
+  const Vector3d &n = known.n, m = p.pose.opposite(n);
+  const double topA = n.dot(p.a.support(n)), topB = m.dot(p.b.support(m));
+  known.featureA = known.featureB = 0.0;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(found.simplex.size); ++i) {
+    const Corner& c = found.simplex.corner[i];
+    known.featureA = std::max(known.featureA, topA - n.dot(c.onA));
+    known.featureB = std::max(known.featureB, topB - m.dot(p.pose.inSecond(c.onA + c.w)));
+  }
+}
+
 /// Answer for cores that are apart. It is the result of the search if that is accurate. Otherwise Newton's
 /// method computes the last digits of normal and points, which chords of a round surface, or rounding of
 /// points that almost touch, leave open. If that fails and the search `isLast`, level_faces.cpp is used. The
@@ -142,8 +161,9 @@ Distance separated(const Pair& p, const Gjk& found, bool isLast) {
   const double open = std::max(found.upper - widest.gap, p.rounding);
   const double angle = std::min(std::sqrt(2.0 * open / found.upper), Pair::kWidest);
   const Vector3d& n = widest.gap > 0.0 ? widest.n : found.n;
-  auto nearest = nearestOnFeatures(p.a, p.b, p.pose, n, widest.gap, found.simplex.weighted(&Corner::onA),
-                                   angle, p.rounding);
+  NearNormal known{n, widest.gap, found.simplex.weighted(&Corner::onA), angle};
+  if (Pair::isHull(p.a) || Pair::isHull(p.b)) setFeatures(p, found, known);
+  auto nearest = nearestOnFeatures(p.a, p.b, p.pose, known, p.rounding);
   if (!nearest && isLast) nearest = oppositeLevel(p, n);
   if (!nearest || !(nearest->gap > 0.0 && nearest->gap >= widest.gap - p.rounding)) {
     if (p.curved() && !opposite && result.status == DistanceStatus::exact)

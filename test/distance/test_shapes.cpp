@@ -125,6 +125,26 @@ TEST_CASE("the two orders of a pair are one answer, mirrored") {
     }
 }
 
+TEST_CASE("the two orders of two hulls are one answer, mirrored, even if only their corners differ") {
+  Cloud cube, turned;
+  for (int i = 0; i < 8; ++i) {
+    const Vector3d p(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1);
+    cube.push_back(p);
+    turned.emplace_back(0.6 * p.x() - 0.8 * p.y(), 0.8 * p.x() + 0.6 * p.y(), p.z());
+  }
+  Shape square = Shape::polytopeOf(cube.data(), 8), diamond = Shape::polytopeOf(turned.data(), 8);
+  diamond.reach = square.reach;  // they differ by rounding
+  const Vector3d p(1, 0, 0), q(-0.5, std::sqrt(0.75), 0), r(-0.5, -std::sqrt(0.75), 0);
+  const Shape triangle = Shape::triangleOf(p, q, r), opposite = Shape::triangleOf(-p, -q, -r);
+  for (const auto& [one, other] : {std::pair(square, diamond), std::pair(triangle, opposite)}) {
+    const Isometry3d at = Isometry3d::Identity();
+    const Distance d = distance(one, at, other, at), e = distance(other, at, one, at);
+    CHECK(d.distance == e.distance);
+    CHECK(d.normal == -e.normal);
+    CHECK(d.point[0] == e.point[1]);
+  }
+}
+
 TEST_CASE("deep in each other: bounds on both sides of the widest gap that a dense search finds") {
   // The differences of the spindle with segments and triangles are nearly flat.
   const std::vector<std::pair<Cloud, double>> bodies{{box(0.3, 0.2, 0.1), 10},

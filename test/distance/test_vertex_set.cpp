@@ -6,10 +6,12 @@
 #include <limits>
 #include <vector>
 
+#include "fcl_stpbv/convex/shape.h"
 #include "fcl_stpbv/convex/vertex_cap.h"
 #include "fcl_stpbv/convex/vertex_set.h"
 #include "test/reference/shapes.h"
 
+using namespace fcl_stpbv;
 using namespace fcl_stpbv::detail;
 using namespace fcl_stpbv::test;
 using Eigen::Vector3d;
@@ -104,6 +106,7 @@ TEST_CASE("a cap's vertex is as far along a direction as any, whatever was asked
   for (const Vector3d& v : geodesicSphere(1, 2)) doubled.push_back(v + 1e-15 * random.direction());
   const std::vector<Cloud> bodies{geodesicSphere(1, 3), cylinder(1, 2, 200), grid, doubled,
                                   randomHull(500, {1, 1e-3, 1}, 4)};
+  int known = 0;
   for (const Cloud& body : bodies)
     for (const double scale : {1e-6, 1.0, 1e6})
       for (const double away : {0.0, 1e3}) {
@@ -126,6 +129,16 @@ TEST_CASE("a cap's vertex is as far along a direction as any, whatever was asked
           CHECK(std::find(vertices.begin(), vertices.end(), found) != vertices.end());
           // For each of the two: rounding of three products and two sums.
           CHECK(d.dot(found) >= most - 2e-15 * size);
+          // The candidates hold the furthest vertex along every direction up to the chord.
+          const double chord = random.uniform(0.0, 0.1);
+          const VertexList list = cap.candidates(d, chord, vertices.data(), count);
+          known += list.count < count;
+          const Vector3d e = (d + 0.99 * chord * random.direction()).normalized();
+          if ((e - d).norm() > chord) continue;
+          const auto along = [&](const Vector3d& v, const Vector3d& w) { return e.dot(v) < e.dot(w); };
+          CHECK(e.dot(*std::max_element(list.first, list.first + list.count, along)) >=
+                e.dot(*std::max_element(vertices.begin(), vertices.end(), along)) - 2e-15 * size);
         }
       }
+  CHECK(known > 1000);  // lists shorter than the whole polytope
 }
