@@ -40,7 +40,7 @@ class Contacts {
   static bool isQuick(const ConvexBody& a, const ConvexBody& b) {
     const auto isBall = [](const ConvexBody& c) { return c.shape.kind == ShapeKind::point; };
     if (a.unbounded() || b.unbounded()) return true;
-    return a.volume ? b.volume != nullptr : !b.volume && (isBall(a) || isBall(b));
+    return a.volume || b.volume || isBall(a) || isBall(b);
   }
   bool meet(const ConvexBody& a, const ConvexBody& b, Contactd& contact) {
     const bool apart = isQuick(a, b) ? isFartherByBounds(a.rounding + b.rounding, a, b, cache_)

@@ -124,20 +124,23 @@ bool surelyOverlap(const ShapeQuery& q) {
 /// The solution for cores that overlap.
 Solution deepSolution(const LeastOverlap& deep) { return {deep.at, DistanceStatus::local, deep.bound}; }
 
-/// Whether GJK finds that the cores overlap. Rounding alone may be the reason.
-bool seemToOverlap(ShapeQuery& q, const StartNormal& start) {
+/// A normal along which GJK finds the cores apart. No value if they seem to overlap, for which rounding alone
+/// may be the reason.
+std::optional<StartNormal> normalBetween(ShapeQuery& q, const StartNormal& start) {
   using Difference = ConvexDifference<StpBvCore, const Shape>;
   constexpr int kSteps = 20;
   StpBvCore core{q.body, start.patch, q.steps};
   Difference difference(core, q.shape, q.pose);
   const auto found = gjk<Difference::Corner>(difference, {}, start.n, q.rounding.across, kSteps,
                                              [](double lower, double) { return lower > 0.0; });
-  return found.verdict == GjkResult<Difference::Corner>::Verdict::overlap;
+  if (found.verdict == GjkResult<Difference::Corner>::Verdict::overlap) return {};
+  return StartNormal{found.n, core.patch};
 }
 
 Solution solve(ShapeQuery& q, const StartNormal& start) {
   constexpr double kNone = kInfinity;
-  constexpr int kTries = 16;       // one to five are usual
+  constexpr int kTries = 8;        // one to five are usual; bodies that overlap take all of them
+  constexpr int kMoreTries = 16;   // from a plane between the bodies
   constexpr double kBeyond = 1e3;  // of rounding; a smaller overlap may be a touch
   Nearest found;
   if (q.shape.unbounded()) {
@@ -145,9 +148,13 @@ Solution solve(ShapeQuery& q, const StartNormal& start) {
     return {found, DistanceStatus::exact, found.gap};
   }
   const bool overlap = surelyOverlap(q);
-  if (!overlap && walkShapeFeatures(q, start, kTries, found) == WalkEnd::nearest)
-    return {found, DistanceStatus::exact, kNone};
-  if (overlap || seemToOverlap(q, start)) {
+  const WalkEnd end = overlap ? WalkEnd::meeting : walkShapeFeatures(q, start, kTries, found);
+  if (end == WalkEnd::nearest) return {found, DistanceStatus::exact, kNone};
+  const std::optional<StartNormal> between = end == WalkEnd::meeting ? std::nullopt : normalBetween(q, start);
+  if (between) {
+    if (walkShapeFeatures(q, *between, kMoreTries, found) == WalkEnd::nearest)
+      return {found, DistanceStatus::exact, kNone};
+  } else {
     if (const auto deep = overlapOfPoint(q, start)) return deepSolution(*deep);
     if (const auto deep = overlapOfCones(q)) return deepSolution(*deep);
     const LeastOverlap deep = leastOverlap(q, start);

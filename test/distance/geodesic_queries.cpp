@@ -1,8 +1,12 @@
-// Queries of two turning geodesic spheres of 162 vertices, whose instructions are counted: geodesic_queries
-// QUERIES. Without a cache ("cold") the step does not matter, only which distances occur.
+// Queries of two turning geodesic spheres of 162 vertices, and of simple shapes that move in the same way,
+// whose instructions are counted: geodesic_queries QUERIES. Without a cache ("cold") the step does not
+// matter, only which distances occur.
+#include <fcl/geometry/shape/cylinder.h>
+
 #include <cstdio>
 
 #include "fcl_stpbv/adapter/collide.h"
+#include "fcl_stpbv/adapter/hull_geometry.h"
 #include "fcl_stpbv/distance/distance.h"
 #include "test/reference/arguments.h"
 #include "test/reference/counted.h"
@@ -67,10 +71,12 @@ class Queries {
     const auto verdict = [&](const auto& poseA, const auto& poseB) {
       return collides(first, poseA, second, poseB) ? 1.0 : 0.0;
     };
-    const auto contact = [&](const auto& poseA, const auto& poseB) {
-      fcl::CollisionResultd result;
-      collide(&first, poseA, &second, poseB, fcl::CollisionRequestd(1, true), result, {&cache_});
-      return result.isCollision() ? result.getContact(0).penetration_depth : 0.0;
+    const auto contact = [&](const fcl::CollisionGeometryd& one, const fcl::CollisionGeometryd& other) {
+      return [&](const auto& poseA, const auto& poseB) {
+        fcl::CollisionResultd result;
+        collide(&one, poseA, &other, poseB, fcl::CollisionRequestd(1, true), result, {&cache_});
+        return result.isCollision() ? result.getContact(0).penetration_depth : 0.0;
+      };
     };
     count("small", small, warm);
     count("large", large, warm);
@@ -78,7 +84,18 @@ class Queries {
     count("adapter_cold", large, cold);
     count("verdict_cold", large, verdict);
     count("deep_verdict_cold", deep, verdict);
-    count("contact", mixed, contact);
+    count("contact", mixed, contact(first, second));
+
+    const StpBvGeometry smoothBox(StpBv::build(test::box(0.2, 0.3, 0.4), {0.01, 10}));
+    const fcl::Cylinderd cylinder(0.1, 0.4);
+    const auto ball = detail::hullGeometry(test::geodesicSphere(0.15, 2)),
+               box = detail::hullGeometry(test::box(0.2, 0.3, 0.4));
+    const Poses touching = posesOf(benchmark::smallStep(), 0.15);
+    count("shapes", large, [&](const auto& poseA, const auto& poseB) {
+      return distance(cylinder, poseA, *ball, poseB).distance;
+    });
+    count("shapes_contact", touching, contact(cylinder, *ball));
+    count("shape_contact", touching, contact(smoothBox, *box));
   }
 
  private:
