@@ -48,7 +48,7 @@ Node meshNode(const fcl::BVHModel<BV>& mesh, int index, const std::vector<Eigen:
   if (!fitted) {
     box = boxAround(node.bv);
   } else {
-    const Eigen::AlignedBox3d& own = (*fitted)[static_cast<std::size_t>(index)];
+    const Eigen::AlignedBox3d& own = (*fitted)[at(index)];
     box = {own.center(), Matrix3d::Identity(), 0.5 * own.sizes()};
   }
   box.half.array() += kFit * (box.half.sum() + box.centre.lpNorm<1>());
@@ -113,7 +113,7 @@ int treeChildren(const fcl::OcTreed& tree, const Node& node, std::array<Node, 8>
     if (leaf && !tree.isNodeOccupied(below)) continue;
     fcl::AABBd part;
     fcl::computeChildBV(box, i, part);
-    child[static_cast<std::size_t>(count++)] = treeNode(tree, below, leaf, part);
+    child[at(count++)] = treeNode(tree, below, leaf, part);
   }
   return count;
 }
@@ -249,9 +249,9 @@ bool ElementTree::find(std::intptr_t id, const Vector3d& x, double off, Shape& s
   constexpr int kPending = 8 * 17;  // octomap is sixteen levels deep
   std::array<Node, kPending> pending;
   int count = 0;
-  pending[static_cast<std::size_t>(count++)] = node;
+  pending[at(count++)] = node;
   while (count > 0) {
-    node = pending[static_cast<std::size_t>(--count)];
+    node = pending[at(--count)];
     const double slack = off + 1e-9 * (node.box.half.norm() + node.box.centre.norm());
     if (((x - node.box.centre).cwiseAbs() - node.box.half).maxCoeff() > slack) continue;
     if (node.leaf) {
@@ -260,8 +260,7 @@ bool ElementTree::find(std::intptr_t id, const Vector3d& x, double off, Shape& s
     }
     std::array<Node, 8> child;
     const int children = this->children(node, child);
-    for (int i = 0; i < children && count < kPending; ++i)
-      pending[static_cast<std::size_t>(count++)] = child[static_cast<std::size_t>(i)];
+    for (int i = 0; i < children && count < kPending; ++i) pending[at(count++)] = child[at(i)];
   }
   return false;
 }

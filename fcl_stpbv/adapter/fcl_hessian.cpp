@@ -8,6 +8,7 @@
 #include "fcl_stpbv/adapter/element_tree.h"
 #include "fcl_stpbv/adapter/fcl_shapes.h"
 #include "fcl_stpbv/convex/relative_pose.h"
+#include "fcl_stpbv/numbers.h"
 
 namespace fcl_stpbv {
 namespace {
@@ -35,7 +36,7 @@ class OtherBody {
     // A cell is away from its tree's origin. Its corners take its place, so that the shape rotates about the
     // same point as the tree.
     for (int i = 0; i < 8; ++i)
-      corner_[static_cast<std::size_t>(i)] =
+      corner_[at(i)] =
           place + Vector3d(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1).cwiseProduct(shape_.size);
     shape_ = Shape::polytopeOf(corner_.data(), 8);
   }

@@ -10,6 +10,7 @@
 #include <algorithm>
 
 #include "fcl_stpbv/distance/patch_pair.h"
+#include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/vectorized.h"
 
 namespace fcl_stpbv::detail {
@@ -54,7 +55,7 @@ bool areNeighbours(const StpBv& volume, int p, int q) {
     if (s.neighbour == q) return true;
   if (volume.kind(p) == PatchKind::face) std::swap(p, q);
   if (volume.kind(p) != PatchKind::vertex || volume.kind(q) != PatchKind::face) return false;
-  return contains(volume.faces()[static_cast<std::size_t>(q - volume.facePatch(0))], p);
+  return contains(volume.faces()[at(q - volume.facePatch(0))], p);
 }
 
 /// 0 if the mapped patch owns the normal, 1 if a neighbour does, 2 if a patch farther away does.

@@ -1,13 +1,14 @@
 // A convex hull in the format of fcl::Convexd: a list of vertices, and faces as [n, i0, i1, ...].
 #include "fcl_stpbv/adapter/hull_geometry.h"
 
+#include "fcl_stpbv/numbers.h"
+
 namespace fcl_stpbv::detail {
 
 std::shared_ptr<const std::vector<fcl::Vector3d>> fclVertices(const HullGraph& hull,
                                                               const std::vector<Eigen::Vector3d>& cloud) {
   auto vertices = std::make_shared<std::vector<fcl::Vector3d>>();
-  for (int v = 0; v < hull.vertexCount(); ++v)
-    vertices->push_back(cloud[static_cast<std::size_t>(hull.cloudIndex(v))]);
+  for (int v = 0; v < hull.vertexCount(); ++v) vertices->push_back(cloud[at(hull.cloudIndex(v))]);
   return vertices;
 }
 

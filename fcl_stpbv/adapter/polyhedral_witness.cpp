@@ -70,8 +70,7 @@ int verticesOf(const Simplex<HullCorner>& s, std::size_t body, std::array<int, 3
       std::swap(weight[k], weight[k - 1]);
       std::swap(out[k], out[k - 1]);
     }
-  while (count > 1 && weight[static_cast<std::size_t>(count) - 1] < kMinWeight)
-    out[static_cast<std::size_t>(--count)] = -1;
+  while (count > 1 && weight[static_cast<std::size_t>(count) - 1] < kMinWeight) out[at(--count)] = -1;
   return count;
 }
 

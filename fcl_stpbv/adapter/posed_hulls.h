@@ -86,7 +86,7 @@ class PosedHulls {
     int best = -1;
     double nearest = kInfinity;
     for (int i = 0; i < std::min(log.count, kLog); ++i) {
-      const int v = log.vertex[static_cast<std::size_t>(i)];
+      const int v = log.vertex[at(i)];
       const double d = (point(body, v) - p).squaredNorm();
       if (d < nearest) nearest = d, best = v;
     }
@@ -125,7 +125,7 @@ class PosedHulls {
   struct Log {
     std::array<int, kLog> vertex;
     int count = 0;
-    void add(int v) { vertex[static_cast<std::size_t>(count++ % kLog)] = v; }
+    void add(int v) { vertex[at(count++ % kLog)] = v; }
   };
 
   std::array<const HullGraph*, 2> hull_;

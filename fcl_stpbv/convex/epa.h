@@ -26,6 +26,7 @@
 
 #include "fcl_stpbv/convex/local_maximum.h"
 #include "fcl_stpbv/convex/polytope.h"
+#include "fcl_stpbv/numbers.h"
 
 namespace fcl_stpbv::detail {
 
@@ -251,7 +252,7 @@ class Epa {
                weight[0] * a.w + weight[1] * b.w + weight[2] * c.w))
       return;
     for (const int i : {0, 1, 2})
-      if (weight[i] > 0.0) met[static_cast<std::size_t>(metCount++)] = i == 0 ? a : i == 1 ? b : c;
+      if (weight[i] > 0.0) met[at(metCount++)] = i == 0 ? a : i == 1 ? b : c;
   }
 
   Difference& difference_;

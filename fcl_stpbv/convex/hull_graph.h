@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/volume/direction_table.h"
 #include "fcl_stpbv/volume/rolling_ball.h"
 #include "fcl_stpbv/volume/stp_bv.h"
@@ -38,23 +39,21 @@ class HullGraph {
   int faceCount() const { return static_cast<int>(faces_.size()); }
 
   /// Vertex `v` relative to `centre()` (m).
-  const Eigen::Vector3d& point(int v) const { return points_[static_cast<std::size_t>(v)]; }
+  const Eigen::Vector3d& point(int v) const { return points_[at(v)]; }
   /// Centre of the points' bounding box, and the distance of the farthest vertex from it (m).
   const Eigen::Vector3d& centre() const { return centre_; }
   double radius() const { return radius_; }
   /// Index of vertex `v` in the cloud.
-  int cloudIndex(int v) const { return cloudIndex_[static_cast<std::size_t>(v)]; }
+  int cloudIndex(int v) const { return cloudIndex_[at(v)]; }
 
   const std::vector<std::array<int, 2>>& edges() const { return edges_; }
   const std::vector<Ring>& faces() const { return faces_; }
   const std::vector<std::array<int, 2>>& edgeFaces() const { return edgeFaces_; }  ///< -1 on a bare segment
   /// Unit outward normal of a face.
-  const Eigen::Vector3d& faceNormal(int f) const { return normals_[static_cast<std::size_t>(f)]; }
+  const Eigen::Vector3d& faceNormal(int f) const { return normals_[at(f)]; }
 
   /// Vertices joined to `v` by an edge.
-  const std::int32_t* neighboursBegin(int v) const {
-    return neighbours_.data() + start_[static_cast<std::size_t>(v)];
-  }
+  const std::int32_t* neighboursBegin(int v) const { return neighbours_.data() + start_[at(v)]; }
   const std::int32_t* neighboursEnd(int v) const {
     return neighbours_.data() + start_[static_cast<std::size_t>(v) + 1];
   }

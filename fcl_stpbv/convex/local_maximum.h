@@ -20,6 +20,8 @@
 #include <cmath>
 #include <limits>
 
+#include "fcl_stpbv/numbers.h"
+
 namespace fcl_stpbv::detail {
 
 /// A maximum of the gap, and the arcs, segments and caps of the difference of the cores around its support
@@ -56,7 +58,7 @@ class LocalMaximum {
     if (!(cosine > kLeast)) return false;
     double a = 0.0, b = 0.0, c = 0.0;  // [a b; b c]: quadratic form of the radii's sum, times the sine
     for (int i = 0; i < count_; ++i) {
-      const Part& p = part_[static_cast<std::size_t>(i)];
+      const Part& p = part_[at(i)];
       const double radius = std::min(p.radius * sine, p.reach);
       a += radius * p.xx, b += radius * p.xy, c += radius * p.yy;
     }
@@ -86,7 +88,7 @@ class LocalMaximum {
   static constexpr double kExactlyAcross = 4e-15;  // cosine: an inclined segment is higher on one side only
 
   void add(const Part& p) {
-    if (p.reach > 0.0 && count_ < kMost) part_[static_cast<std::size_t>(count_++)] = p;
+    if (p.reach > 0.0 && count_ < kMost) part_[at(count_++)] = p;
   }
 
   Eigen::Vector3d n_{0, 0, 1}, e_{0, 0, 0}, f_{0, 0, 0};  // the first arc's direction, and across it and n

@@ -6,6 +6,8 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "fcl_stpbv/numbers.h"
+
 namespace fcl_stpbv::detail {
 
 using Eigen::Vector3d;
@@ -137,7 +139,7 @@ bool coneOfCore(const Shape& s, const Vector3d& m, const Vector3d& x, double rou
       break;
     case ShapeKind::triangle:
       result = ofVertices(
-          3, [&](int i) { return s.corner[static_cast<std::size_t>(i)]; }, s.support(m), m, rounding);
+          3, [&](int i) { return s.corner[at(i)]; }, s.support(m), m, rounding);
       break;
     case ShapeKind::polytope:
       result = ofVertices(

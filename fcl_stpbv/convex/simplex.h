@@ -18,6 +18,8 @@
 #include <cmath>
 #include <limits>
 
+#include "fcl_stpbv/numbers.h"
+
 namespace fcl_stpbv::detail {
 
 /// Up to four points of a convex set, with the barycentric weights of the one nearest to the origin.
@@ -28,7 +30,7 @@ struct Simplex {
   std::array<double, 4> weight{};
   int size = 0;
 
-  void add(const Corner& c) { corner[static_cast<std::size_t>(size++)] = c; }
+  void add(const Corner& c) { corner[at(size++)] = c; }
   bool holds(const Eigen::Vector3d& w) const {
     for (std::size_t i = 0; i < static_cast<std::size_t>(size); ++i)
       if (corner[i].w == w) return true;
@@ -66,7 +68,7 @@ struct SimplexFace {
   double squared = std::numeric_limits<double>::infinity();
 };
 
-inline const Eigen::Vector3d& at(const SimplexPoints& s, int i) { return s[static_cast<std::size_t>(i)]; }
+inline const Eigen::Vector3d& at(const SimplexPoints& s, int i) { return s[detail::at(i)]; }
 
 inline SimplexFace nearestOnCorner(const SimplexPoints& s, int i) {
   return {{i, 0, 0}, {1, 0, 0}, 1, at(s, i), at(s, i), at(s, i).squaredNorm()};
@@ -170,7 +172,7 @@ NearestPoint reduceToNearest(const Simplex<Corner>& simplex, Simplex<Corner>& re
   }
   reduced.size = best.size;
   for (std::size_t i = 0; i < static_cast<std::size_t>(best.size); ++i) {
-    reduced.corner[i] = simplex.corner[static_cast<std::size_t>(best.corner[i])];
+    reduced.corner[i] = simplex.corner[at(best.corner[i])];
     reduced.weight[i] = best.weight[i];
   }
   return {best.point, best.direction, !(best.squared > 0)};

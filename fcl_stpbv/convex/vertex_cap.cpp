@@ -4,6 +4,7 @@
 #include "fcl_stpbv/convex/vertex_cap.h"
 
 #include "fcl_stpbv/convex/vertex_set.h"
+#include "fcl_stpbv/numbers.h"
 
 namespace fcl_stpbv::detail {
 
@@ -26,7 +27,7 @@ Vector3d VertexCap::furthest(const Vector3d& d, const Vector3d* vertices, int co
   if (!full_ && isNearAxis(d)) {
     if (count_ == 0) count_ = notBelow(furthest_, axis_, kWider, vertices, count, near_.data(), kRoom);
     full_ = count_ > kRoom;
-    if (!full_) return near_[static_cast<std::size_t>(furthestAlong(d, near_.data(), count_))];
+    if (!full_) return near_[at(furthestAlong(d, near_.data(), count_))];
   }
   axis_ = d.normalized();
   count_ = 0;

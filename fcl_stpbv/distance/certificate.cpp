@@ -70,7 +70,7 @@ Vertices verticesOf(const StpBv& body, int patch) {
     v.count = face.count();
     for (std::size_t i = 0; i < v.count; ++i) v.index[i] = patches.startOf(face.side[i]);
   } else {
-    const StpBv::Ring& ring = body.faces()[static_cast<std::size_t>(patch - body.facePatch(0))];
+    const StpBv::Ring& ring = body.faces()[at(patch - body.facePatch(0))];
     v.count = FeatureCorners::kMost;
     for (std::size_t i = 0; i < v.count; ++i) v.index[i] = ring[i * ring.size() / v.count];
   }

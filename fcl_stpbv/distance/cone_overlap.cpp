@@ -95,7 +95,7 @@ class WaysOut {
     int count = 0;
     left[count++] = {whole.from, whole.to};
     for (int i = 0; count > 0; ++i) {
-      const auto [from, to] = left[static_cast<std::size_t>(--count)];
+      const auto [from, to] = left[at(--count)];
       const Vector3d n = acrossChord(whole, from, to);
       const double chord = n.dot(from.point - whole.a);
       if (isSettled(whole, from, to, chord)) continue;
@@ -106,8 +106,8 @@ class WaysOut {
         bound(chord);
         continue;
       }
-      left[static_cast<std::size_t>(count++)] = {from, middle};
-      left[static_cast<std::size_t>(count++)] = {middle, to};
+      left[at(count++)] = {from, middle};
+      left[at(count++)] = {middle, to};
     }
     return true;
   }

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "fcl_stpbv/convex/simplex.h"
+#include "fcl_stpbv/numbers.h"
 
 namespace fcl_stpbv::detail {
 
@@ -35,7 +36,7 @@ KnownFeatures::KnownFeatures(const ShapeQuery& q, const Vector3d& n)
 bool KnownFeatures::add(const Vector3d& corner) {
   const auto end = corner_.begin() + count_;
   if (!isPolytope_ || count_ == 4 || std::find(corner_.begin(), end, corner) != end) return false;
-  corner_[static_cast<std::size_t>(count_++)] = corner;
+  corner_[at(count_++)] = corner;
   return isNew_ = true;
 }
 

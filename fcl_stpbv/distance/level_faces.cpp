@@ -38,17 +38,17 @@ struct WidestTurn {
   Vector2d turn{0, 0};      ///< tangent of the angle
   double gap = -kInfinity;  ///< the gap at that turn, less D (m)
 
-  void add(const LevelDifference& one) { difference[static_cast<std::size_t>(count++)] = one; }
+  void add(const LevelDifference& one) { difference[at(count++)] = one; }
   Vector3d weighted(Vector3d LevelDifference::*point) const {
     Vector3d sum(0, 0, 0);
     for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i)
       sum += weight[i] * (difference[i].*point);
     return sum;
   }
-  double lowest(const Vector2d& at) const {
+  double lowest(const Vector2d& turned) const {
     double least = kInfinity;
     for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i)
-      least = std::min(least, difference[i].heightAt(at));
+      least = std::min(least, difference[i].heightAt(turned));
     return least;
   }
 
@@ -58,29 +58,29 @@ struct WidestTurn {
     // The weighted sum of the offsets across is `d` times the turn, but only up to rounding of the bodies'
     // size. If several differences have the same height at the turn, their heights determine the turn.
     const auto offer = [&](std::initializer_list<int> which, std::initializer_list<double> weights,
-                           const Vector2d& at) {
+                           const Vector2d& turned) {
       WidestTurn x;
-      x.turn = at;
+      x.turn = turned;
       const double* w = weights.begin();
       for (const int i : which) {
         if (!(*w >= 0.0)) return;
-        x.weight[static_cast<std::size_t>(x.count)] = *w++;
-        x.add(difference[static_cast<std::size_t>(i)]);
+        x.weight[at(x.count)] = *w++;
+        x.add(difference[at(i)]);
       }
-      x.gap = lowest(at) - 0.5 * d * at.squaredNorm();
+      x.gap = lowest(turned) - 0.5 * d * turned.squaredNorm();
       if (x.gap > widest.gap) widest = x;
     };
     for (int i = 0; i < count; ++i) {
-      const LevelDifference& p = difference[static_cast<std::size_t>(i)];
+      const LevelDifference& p = difference[at(i)];
       offer({i}, {1.0}, p.across / d);
       for (int j = 0; j < i; ++j) {
-        const LevelDifference& q = difference[static_cast<std::size_t>(j)];
+        const LevelDifference& q = difference[at(j)];
         const Vector2d e = q.across - p.across;
         const double e2 = e.squaredNorm(), he = p.height - q.height;  // equal heights: e.t = he
         const double w = (d * he - p.across.dot(e)) / e2;
         offer({i, j}, {1.0 - w, w}, he / e2 * e + cross(e, p.across) / (d * e2) * Vector2d(-e.y(), e.x()));
         for (int k = 0; k < j; ++k) {
-          const LevelDifference& r = difference[static_cast<std::size_t>(k)];
+          const LevelDifference& r = difference[at(k)];
           const Vector2d f = r.across - p.across;
           const double area = cross(e, f), hf = p.height - r.height;
           const Vector2d t((he * f.y() - hf * e.y()) / area, (hf * e.x() - he * f.x()) / area),

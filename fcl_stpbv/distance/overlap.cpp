@@ -129,14 +129,14 @@ class Starts {
   void offer(const Sample& s) {
     constexpr double kNeighbours = 0.97;  // cosine of 14 degrees
     for (int i = 0; i < count_; ++i) {
-      Sample& kept = sample_[static_cast<std::size_t>(i)];
+      Sample& kept = sample_[at(i)];
       if (kept.n.dot(s.n) > kNeighbours) {
         if (s.core > kept.core) kept = s;
         return;
       }
     }
     if (count_ < kKept) {
-      sample_[static_cast<std::size_t>(count_++)] = s;
+      sample_[at(count_++)] = s;
       return;
     }
     const auto worst = std::min_element(sample_.begin(), sample_.end(),

@@ -22,6 +22,7 @@
 #include "fcl_stpbv/convex/vertex_cap.h"
 #include "fcl_stpbv/convex/vertex_set.h"
 #include "fcl_stpbv/distance/turning.h"
+#include "fcl_stpbv/numbers.h"
 
 namespace fcl_stpbv::detail {
 
@@ -78,7 +79,7 @@ struct Facing {
       return false;
     coneB.normal = pose.rotation * Vector3d(-coneB.normal);
     for (int i = 0; i < coneB.count; ++i) {
-      Vector3d& way = coneB.way[static_cast<std::size_t>(i)];
+      Vector3d& way = coneB.way[at(i)];
       way = pose.rotation * way;
     }
     return true;

@@ -67,9 +67,9 @@ template <typename Search>
 ShapeCorners cornersMet(const Search& epa) {
   ShapeCorners met;
   for (int i = 0; i < epa.metCount; ++i) {
-    const Vector3d& p = epa.met[static_cast<std::size_t>(i)].shape;
+    const Vector3d& p = epa.met[at(i)].shape;
     if (std::find(met.p.begin(), met.p.begin() + met.count, p) == met.p.begin() + met.count)
-      met.p[static_cast<std::size_t>(met.count++)] = p;
+      met.p[at(met.count++)] = p;
   }
   return met;
 }

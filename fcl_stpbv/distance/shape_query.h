@@ -10,6 +10,7 @@
 #include "fcl_stpbv/convex/shape.h"
 #include "fcl_stpbv/distance/distance.h"
 #include "fcl_stpbv/distance/shape_ascent.h"
+#include "fcl_stpbv/numbers.h"
 
 namespace fcl_stpbv::detail {
 
@@ -174,7 +175,7 @@ struct ShapeCorners {
 
   /// The corners of a triangle; corners are repeated if there are fewer than three.
   std::array<Eigen::Vector3d, 3> three() const {
-    return {p[0], p[count > 1 ? 1 : 0], p[static_cast<std::size_t>(std::max(count, 1) - 1)]};
+    return {p[0], p[count > 1 ? 1 : 0], p[at(std::max(count, 1) - 1)]};
   }
 };
 

@@ -12,6 +12,7 @@
 #include "fcl_stpbv/io/sch_data.h"
 #include "fcl_stpbv/io/text_scanner.h"
 #include "fcl_stpbv/io/volume_files.h"
+#include "fcl_stpbv/numbers.h"
 
 namespace fcl_stpbv {
 namespace {
@@ -66,7 +67,7 @@ class Fans {
     for (std::size_t f : group) {
       for (std::size_t k = 0; k < 3; ++k) {
         if (isInner(f, k)) continue;
-        next_[static_cast<std::size_t>(triangles_[f][k])] = triangles_[f][(k + 1) % 3];
+        next_[at(triangles_[f][k])] = triangles_[f][(k + 1) % 3];
         ++sides;
       }
     }
@@ -74,7 +75,7 @@ class Fans {
     const int start = triangles_[group[0]][0];
     for (int v = start; v >= 0 && ring.size() < sides;) {
       ring.push_back(v);
-      v = std::exchange(next_[static_cast<std::size_t>(v)], -1);
+      v = std::exchange(next_[at(v)], -1);
       if (v == start) break;
     }
     if (ring.size() != sides) {

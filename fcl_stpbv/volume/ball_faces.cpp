@@ -7,6 +7,8 @@
 #include <limits>
 #include <set>
 
+#include "fcl_stpbv/numbers.h"
+
 namespace fcl_stpbv::detail {
 
 using Eigen::Vector3d;
@@ -24,7 +26,7 @@ double touchTolerance(const std::vector<Vector3d>& points) {
 }
 
 std::array<int, 3> wideTriangle(const std::vector<Vector3d>& points, const std::vector<int>& ring) {
-  const auto at = [&](std::size_t k) -> const Vector3d& { return points[static_cast<std::size_t>(ring[k])]; };
+  const auto at = [&](std::size_t k) -> const Vector3d& { return points[detail::at(ring[k])]; };
   std::size_t second = 1, third = 2;
   if (ring.size() > 3) {
     for (std::size_t k = 1; k < ring.size(); ++k)
@@ -41,7 +43,7 @@ std::array<int, 3> wideTriangle(const std::vector<Vector3d>& points, const std::
 
 Ring ringOf(const std::vector<Vector3d>& points, const TouchingBall& ball, int from, int to,
             std::vector<int> touched) {
-  const auto at = [&](int i) -> const Vector3d& { return points[static_cast<std::size_t>(i)]; };
+  const auto at = [&](int i) -> const Vector3d& { return points[detail::at(i)]; };
   touched.erase(std::remove_if(touched.begin(), touched.end(), [&](int i) { return i == from || i == to; }),
                 touched.end());
   std::sort(touched.begin(), touched.end(), [&](int i, int j) {
@@ -68,7 +70,7 @@ std::vector<int> distinct(const std::vector<Vector3d>& points) {
   std::vector<int> kept;
   for (std::size_t i = 0; i < points.size(); ++i)
     if (std::none_of(kept.begin(), kept.end(),
-                     [&](int j) { return (points[static_cast<std::size_t>(j)] - points[i]).norm() <= same; }))
+                     [&](int j) { return (points[at(j)] - points[i]).norm() <= same; }))
       kept.push_back(static_cast<int>(i));
   return kept;
 }
@@ -76,7 +78,7 @@ std::vector<int> distinct(const std::vector<Vector3d>& points) {
 }  // namespace
 
 std::vector<Ring> facesByDefinition(const std::vector<Vector3d>& points, double radius) {
-  const auto at = [&](int i) -> const Vector3d& { return points[static_cast<std::size_t>(i)]; };
+  const auto at = [&](int i) -> const Vector3d& { return points[detail::at(i)]; };
   const std::vector<int> all = distinct(points);
   std::vector<int> order = all, touched;
   const auto holdsAll = [&](const TouchingBall& ball) {

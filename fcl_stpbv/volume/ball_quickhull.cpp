@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 
+#include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/volume/quick_ball.h"
 #include "fcl_stpbv/volume/quickhull.h"
 
@@ -25,7 +26,7 @@ bool isSound(Quickhull<QuickBall>& hull, double same, bool& mayJoin) {
   for (auto& f : hull.faces()) {
     if (f.isGone) continue;
     for (std::size_t k = 0; k < 3; ++k) {
-      const auto& over = hull.faces()[static_cast<std::size_t>(f.beside[k])];
+      const auto& over = hull.faces()[at(f.beside[k])];
       const int from = f.corner[k], to = f.corner[(k + 1) % 3];
       if (!((hull.at(to) - hull.at(from)).norm() > same)) return false;
       const int opposite = over.corner[0] + over.corner[1] + over.corner[2] - from - to;

@@ -19,8 +19,7 @@ BodyBox boxAround(const std::vector<Vector3d>& vertices, const std::vector<std::
   const auto longestAcross = [&](const Vector3d& u) {
     Vector3d longest(0, 0, 0);
     for (const auto& [from, to] : edges) {
-      const Vector3d e = vertices[static_cast<std::size_t>(to)] - vertices[static_cast<std::size_t>(from)],
-                     across = e - e.dot(u) * u;
+      const Vector3d e = vertices[at(to)] - vertices[at(from)], across = e - e.dot(u) * u;
       if (across.squaredNorm() > longest.squaredNorm()) longest = across;
     }
     return longest;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/volume/measure.h"
 #include "fcl_stpbv/volume/point_tree.h"
 
@@ -19,8 +20,7 @@ double surfaceDifference(const StpBv& a, const StpBv& b) {
   };
   for (const StpBv* volume : {&a, &b})
     for (int face = 0; face < volume->faceCount(); ++face)
-      for (const int vertex : volume->faces()[static_cast<std::size_t>(face)])
-        compare(volume->corner(face, vertex));
+      for (const int vertex : volume->faces()[at(face)]) compare(volume->corner(face, vertex));
   constexpr int kMore = 1000;  // directions on a spiral, for bodies with few faces
   constexpr double kGoldenAngle = 2.399963229728653;
   for (int i = 0; i < kMore; ++i) {

@@ -39,7 +39,7 @@ double faceVolume(const StpBv& volume, const Region& region) {
   double sum = 0;
   const Patch patch = volume.patch(region.patch);
   const Vector3d anchor = patch.anchor - volume.centre(), middle = region.centre - patch.axis;
-  const StpBv::Ring& ring = volume.faces()[static_cast<std::size_t>(region.patch - volume.facePatch(0))];
+  const StpBv::Ring& ring = volume.faces()[at(region.patch - volume.facePatch(0))];
   for (std::size_t k = 0; k < ring.size(); ++k) {  // arc k starts at vertex ring[k]
     const Arc& arc = region.boundary[k];
     const Vector3d first = (at(volume, ring[k]) - patch.anchor) / volume.radii().rho - middle;
@@ -102,8 +102,7 @@ Vector3d acrossEdge(const StpBv& volume, int patch) {
 bool hasNormals(const StpBv& volume, int patch) {
   constexpr double kTurn = 1e-12;  // rad
   const int edge = patch - volume.vertexCount();
-  return edge < 0 || edge >= volume.edgeCount() ||
-         volume.edges()[static_cast<std::size_t>(edge)].turn > kTurn;
+  return edge < 0 || edge >= volume.edgeCount() || volume.edges()[at(edge)].turn > kTurn;
 }
 
 // The patch's normal with the largest n.p - h(n): from the patch's farthest centre towards p. If all normals
@@ -149,8 +148,7 @@ double enclosedVolume(const StpBv& volume) {
     }
     const Vector3d p = volume.patch(region.patch).anchor - volume.centre();
     const double share = volume.edgeCount() == 0 ? 0.5 : 1;  // regions() gives a lone sphere as two halves
-    sum +=
-        r * r / 3 * (p.dot(vectorArea(region)) + r * share * angles[static_cast<std::size_t>(region.patch)]);
+    sum += r * r / 3 * (p.dot(vectorArea(region)) + r * share * angles[at(region.patch)]);
   }
   for (int e = 0; e < volume.edgeCount(); ++e) sum += edgeVolume(volume, e);
   return sum;

@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "fcl_stpbv/numbers.h"
+
 namespace fcl_stpbv::detail {
 
 /// Open half-edges, in one list for each vertex from which they start. A vertex has few, so that each is
@@ -14,21 +16,21 @@ class OpenEdges {
 
   /// Adds the half-edge `from` -> `to` at a face's corner.
   void add(int from, int to, int face, int corner) {
-    int& first = first_[static_cast<std::size_t>(from)];
+    int& first = first_[at(from)];
     edges_.push_back({to, face, corner, first});
     first = static_cast<int>(edges_.size()) - 1;
   }
 
   /// Face of an open half-edge `from` -> `to`; -1 if there is none.
   int face(int from, int to) const {
-    for (int e = first_[static_cast<std::size_t>(from)]; e != kNone; e = edge(e).next)
+    for (int e = first_[at(from)]; e != kNone; e = edge(e).next)
       if (edge(e).to == to) return edge(e).face;
     return kNone;
   }
 
   /// Removes the half-edge `from` -> `to` of this face. Returns its corner, or -1 if it is not open.
   int close(int from, int to, int face) {
-    for (int* link = &first_[static_cast<std::size_t>(from)]; *link != kNone; link = &edge(*link).next) {
+    for (int* link = &first_[at(from)]; *link != kNone; link = &edge(*link).next) {
       const Edge found = edge(*link);
       if (found.to != to || found.face != face) continue;
       *link = found.next;
@@ -42,8 +44,8 @@ class OpenEdges {
   struct Edge {
     int to, face, corner, next;
   };
-  Edge& edge(int i) { return edges_[static_cast<std::size_t>(i)]; }
-  const Edge& edge(int i) const { return edges_[static_cast<std::size_t>(i)]; }
+  Edge& edge(int i) { return edges_[at(i)]; }
+  const Edge& edge(int i) const { return edges_[at(i)]; }
 
   std::vector<int> first_;
   std::vector<Edge> edges_;

@@ -13,6 +13,7 @@
 #include <numeric>
 
 #include "fcl_stpbv/error.h"
+#include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/volume/ball_faces.h"
 #include "fcl_stpbv/volume/rolling_ball.h"
 
@@ -47,9 +48,8 @@ std::vector<Plane> bodyInside(const std::vector<Vector3d>& points, double margin
   std::vector<Plane> planes;
   for (const Ring& ring : hull.faces) {
     const std::array<int, 3> t = wideTriangle(some, ring);
-    const Vector3d& a = some[static_cast<std::size_t>(t[0])];
-    const Vector3d u = some[static_cast<std::size_t>(t[1])] - a, v = some[static_cast<std::size_t>(t[2])] - a,
-                   n = u.cross(v);
+    const Vector3d& a = some[at(t[0])];
+    const Vector3d u = some[at(t[1])] - a, v = some[at(t[2])] - a, n = u.cross(v);
     constexpr double kThin = 1e-6;  // the plane of a thinner triangle may be off by as much as the margin
     if (!(n.norm() > kThin * u.norm() * v.norm())) return {};
     planes.push_back({n.normalized(), n.normalized().dot(a) - margin});
@@ -118,9 +118,9 @@ std::vector<int> outerPoints(const std::vector<Vector3d>& points) {
   const int side = std::clamp(static_cast<int>(std::cbrt(static_cast<double>(points.size())) / 2), 2, 50);
   const Grid grid{low, (high - low) / side, side};
   const std::vector<char> inside = cellsInside(grid, planes);
-  outer.erase(std::remove_if(outer.begin(), outer.end(),
-                             [&](int i) { return inside[grid.cellOf(points[static_cast<std::size_t>(i)])]; }),
-              outer.end());
+  outer.erase(
+      std::remove_if(outer.begin(), outer.end(), [&](int i) { return inside[grid.cellOf(points[at(i)])]; }),
+      outer.end());
   return outer;
 }
 

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "fcl_stpbv/error.h"
+#include "fcl_stpbv/numbers.h"
 
 namespace fcl_stpbv::detail {
 
@@ -43,14 +44,13 @@ PatchTable::PatchTable(const std::vector<Vector3d>& vertices, std::vector<EdgeRe
   std::vector<std::size_t> place(vertices.size());  // of each vertex in the face's ring
   faces_.reserve(faces.size());
   for (std::size_t f = 0; f < faces.size(); ++f) {
-    for (std::size_t i = 0; i < faces[f].size(); ++i) place[static_cast<std::size_t>(faces[f][i])] = i;
+    for (std::size_t i = 0; i < faces[f].size(); ++i) place[at(faces[f][i])] = i;
     std::vector<std::int32_t>& sides = atFace[f];
-    std::sort(sides.begin(), sides.end(), [&](std::int32_t p, std::int32_t q) {
-      return place[static_cast<std::size_t>(startOf(p))] < place[static_cast<std::size_t>(startOf(q))];
-    });
+    std::sort(sides.begin(), sides.end(),
+              [&](std::int32_t p, std::int32_t q) { return place[at(startOf(p))] < place[at(startOf(q))]; });
     const bool more = sides.size() > FaceRecord::kSize;
     const std::size_t here = std::min(sides.size(), FaceRecord::kSize - more);
-    faces_.push_back({vertices[static_cast<std::size_t>(faces[f][0])], normals[f], {}});
+    faces_.push_back({vertices[at(faces[f][0])], normals[f], {}});
     fill(faces_.back().side, sides.data(), here);
     if (more) faces_.back().side.back() = ~addFurther(sides, here);
   }
@@ -67,8 +67,8 @@ void PatchTable::joinSides(std::vector<std::vector<std::int32_t>>& atVertex,
     for (const std::size_t k : {0u, 1u}) {
       const std::int32_t past = edges_[e].past(2 + k), side = EdgeRecord::side(e, k);
       if (past >= firstEdge_ && past < firstFace_) continue;
-      atVertex[static_cast<std::size_t>(startOf(side))].push_back(side);
-      if (past >= firstFace_) atFace[static_cast<std::size_t>(past - firstFace_)].push_back(side);
+      atVertex[at(startOf(side))].push_back(side);
+      if (past >= firstFace_) atFace[at(past - firstFace_)].push_back(side);
     }
   if (!edges_.empty()) return;
   edges_.push_back({Packed{}, Packed{0, 0, 0, -2}, {}});
@@ -147,7 +147,7 @@ PatchTable::Boundaries::Iterator& PatchTable::Boundaries::Iterator::operator++()
   if (++side_ != end_) return *this;
   side_ = nullptr;
   if (next_ < 0) return *this;
-  const Sides& sides = table_.further_[static_cast<std::size_t>(next_)];
+  const Sides& sides = table_.further_[at(next_)];
   next_ = sides.next;
   take(sides.side.data(), Sides::kSize);
   return *this;

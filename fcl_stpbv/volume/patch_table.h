@@ -10,6 +10,7 @@
 #include <limits>
 #include <vector>
 
+#include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/packed.h"
 #include "fcl_stpbv/volume/patch_record.h"
 #include "fcl_stpbv/volume/stp_bv.h"
@@ -59,9 +60,9 @@ class PatchTable {
     return patch < firstEdge_ ? PatchKind::vertex : patch < firstFace_ ? PatchKind::edge : PatchKind::face;
   }
 
-  const VertexRecord& vertex(int patch) const { return vertices_[static_cast<std::size_t>(patch)]; }
-  const EdgeRecord& edge(int patch) const { return edges_[static_cast<std::size_t>(patch - firstEdge_)]; }
-  const FaceRecord& face(int patch) const { return faces_[static_cast<std::size_t>(patch - firstFace_)]; }
+  const VertexRecord& vertex(int patch) const { return vertices_[at(patch)]; }
+  const EdgeRecord& edge(int patch) const { return edges_[at(patch - firstEdge_)]; }
+  const FaceRecord& face(int patch) const { return faces_[at(patch - firstFace_)]; }
 
   Patch patch(int index) const;
   Boundaries boundaries(int patch) const;
@@ -231,7 +232,7 @@ class PatchTable {
     const double past = largest(ofFour<PatchKind::face>(side.data(), 0, measure));
     const Crossing here{past, edgeAt(side[placeOf(past)])};
     if (further < 0) return here;
-    const Crossing there = mostOf<PatchKind::face>(further_[static_cast<std::size_t>(further)], measure);
+    const Crossing there = mostOf<PatchKind::face>(further_[at(further)], measure);
     return here.past >= there.past ? here : there;
   }
 
@@ -245,7 +246,7 @@ class PatchTable {
     };
     Crossing most = mostOfEight(first);
     for (std::int32_t next = first.next; next >= 0;) {
-      const Sides& sides = further_[static_cast<std::size_t>(next)];
+      const Sides& sides = further_[at(next)];
       const Crossing other = mostOfEight(sides);
       if (other.past > most.past) most = other;
       next = sides.next;

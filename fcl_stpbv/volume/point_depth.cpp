@@ -144,7 +144,7 @@ double capHeight(const StpBv& body) {
     // Take the heights over the ball's centre along any unit vector, here the mean of the corners' normals.
     // Every point of the polygon is at least as far from the centre as the lowest corner is high. A corner's
     // height is rho times the cosine of the angle between its normal and the mean.
-    const StpBv::Ring& ring = body.faces()[static_cast<std::size_t>(f)];
+    const StpBv::Ring& ring = body.faces()[at(f)];
     Vector3d mean(0, 0, 0);
     for (const int vertex : ring) mean += body.corner(f, vertex);
     const double length = mean.norm();

@@ -44,15 +44,13 @@ PointTree::PointTree(const std::vector<Eigen::Vector3d>& points)
   sorted_.reserve(points.size());
   place_.resize(points.size());
   for (const int i : order_) {
-    place_[static_cast<std::size_t>(i)] = static_cast<int>(sorted_.size());
-    sorted_.push_back(points[static_cast<std::size_t>(i)]);
+    place_[at(i)] = static_cast<int>(sorted_.size());
+    sorted_.push_back(points[at(i)]);
   }
 }
 
 int PointTree::makeNode(int begin, int end) {
-  const auto fromCentre = [&](int i) -> Eigen::Vector3d {
-    return points_[static_cast<std::size_t>(order_[static_cast<std::size_t>(i)])] - centre_;
-  };
+  const auto fromCentre = [&](int i) -> Eigen::Vector3d { return points_[at(order_[at(i)])] - centre_; };
   Node node{principalAxes(fromCentre, begin, end), {}, {}, 0, begin, end, -1};
   node.low = node.high = node.axes * fromCentre(begin);
   for (int i = begin; i < end; ++i) {
@@ -69,13 +67,10 @@ int PointTree::makeNode(int begin, int end) {
     const Eigen::Vector3d axis = node.axes.row(longest);
     const int middle = begin + (end - begin) / 2;
     std::nth_element(order_.begin() + begin, order_.begin() + middle, order_.begin() + end,
-                     [&](int i, int j) {
-                       return axis.dot(points_[static_cast<std::size_t>(i)]) <
-                              axis.dot(points_[static_cast<std::size_t>(j)]);
-                     });
+                     [&](int i, int j) { return axis.dot(points_[at(i)]) < axis.dot(points_[at(j)]); });
     makeNode(begin, middle);
     const int right = makeNode(middle, end);
-    nodes_[static_cast<std::size_t>(index)].right = right;
+    nodes_[at(index)].right = right;
   }
   return index;
 }
@@ -121,21 +116,21 @@ PointTree::Highest PointTree::highest(const Eigen::Vector3d& anchor, const Eigen
   };
   std::array<Waiting, kStack> stack;
   int waiting = 0;
-  stack[static_cast<std::size_t>(waiting++)] = {bound(nodes_[0]), 0};
+  stack[at(waiting++)] = {bound(nodes_[0]), 0};
   while (waiting > 0) {
-    const Waiting top = stack[static_cast<std::size_t>(--waiting)];
+    const Waiting top = stack[at(--waiting)];
     // Bound and height may differ by rounding. So a node is left out only if its bound is lower by more than
     // that.
     const double wanted = best.height > tolerance ? best.height : -2 * tolerance;
     if (top.bound < wanted) continue;
-    const Node& node = nodes_[static_cast<std::size_t>(top.node)];
+    const Node& node = nodes_[at(top.node)];
     if (sphereBound(node) < wanted) continue;
     if (node.right < 0) {
       for (int i = node.begin; i < node.end; ++i) {
-        const Eigen::Vector3d q = sorted_[static_cast<std::size_t>(i)] - anchor;
+        const Eigen::Vector3d q = sorted_[at(i)] - anchor;
         const double height = 0.5 * curvature * q.squaredNorm() + normal.dot(q);
         if (height < -tolerance && height <= best.height) continue;
-        const int index = order_[static_cast<std::size_t>(i)];
+        const int index = order_[at(i)];
         if (isRemoved(index)) continue;
         if (height > best.height) best = {index, height};
         if (best.height <= tolerance && height >= -tolerance) near->push_back(index);
@@ -143,10 +138,10 @@ PointTree::Highest PointTree::highest(const Eigen::Vector3d& anchor, const Eigen
       continue;
     }
     Waiting a{bound(nodes_[static_cast<std::size_t>(top.node) + 1]), top.node + 1};
-    Waiting b{bound(nodes_[static_cast<std::size_t>(node.right)]), node.right};
+    Waiting b{bound(nodes_[at(node.right)]), node.right};
     if (a.bound > b.bound) std::swap(a, b);
-    stack[static_cast<std::size_t>(waiting++)] = a;  // the child with the higher bound is visited first
-    stack[static_cast<std::size_t>(waiting++)] = b;
+    stack[at(waiting++)] = a;  // the child with the higher bound is visited first
+    stack[at(waiting++)] = b;
   }
   return best;
 }
@@ -154,15 +149,15 @@ PointTree::Highest PointTree::highest(const Eigen::Vector3d& anchor, const Eigen
 PointTree::Highest PointTree::highestBeside(int beside, const Eigen::Vector3d& anchor,
                                             const Eigen::Vector3d& normal, double curvature) const {
   constexpr int kReach = 3 * kLeaf;  // three leaves to either side
-  const int place = place_[static_cast<std::size_t>(beside)];
+  const int place = place_[at(beside)];
   const int begin = std::max(0, place - kReach),
             end = std::min(static_cast<int>(sorted_.size()), place + kReach);
   Highest best{-1, -kInfinity};
   for (int i = begin; i < end; ++i) {
-    const Eigen::Vector3d q = sorted_[static_cast<std::size_t>(i)] - anchor;
+    const Eigen::Vector3d q = sorted_[at(i)] - anchor;
     const double height = 0.5 * curvature * q.squaredNorm() + normal.dot(q);
     if (height <= best.height) continue;
-    const int index = order_[static_cast<std::size_t>(i)];
+    const int index = order_[at(i)];
     if (!isRemoved(index)) best = {index, height};
   }
   return best;
@@ -178,23 +173,22 @@ void PointTree::within(const Eigen::Vector3d& centre, double radius, std::vector
                                     (std::sqrt(nodes_[0].far2) + from.norm());  // the boxes' own rounding
   std::array<int, kStack> stack;
   int waiting = 0;
-  stack[static_cast<std::size_t>(waiting++)] = 0;
+  stack[at(waiting++)] = 0;
   while (waiting > 0 && found->size() < atMost) {
-    const int current = stack[static_cast<std::size_t>(--waiting)];
-    const Node& node = nodes_[static_cast<std::size_t>(current)];
+    const int current = stack[at(--waiting)];
+    const Node& node = nodes_[at(current)];
     const Eigen::Vector3d c = node.axes * from;
     const double away = (c.cwiseMax(node.low).cwiseMin(node.high) - c).norm();
     if (away > reach) continue;
     if (node.right < 0) {
       for (int i = node.begin; i < node.end; ++i) {
-        const int index = order_[static_cast<std::size_t>(i)];
-        if ((sorted_[static_cast<std::size_t>(i)] - centre).squaredNorm() <= radius2 && !isRemoved(index))
-          found->push_back(index);
+        const int index = order_[at(i)];
+        if ((sorted_[at(i)] - centre).squaredNorm() <= radius2 && !isRemoved(index)) found->push_back(index);
       }
       continue;
     }
-    stack[static_cast<std::size_t>(waiting++)] = current + 1;
-    stack[static_cast<std::size_t>(waiting++)] = node.right;
+    stack[at(waiting++)] = current + 1;
+    stack[at(waiting++)] = node.right;
   }
 }
 

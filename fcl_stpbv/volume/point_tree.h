@@ -6,6 +6,8 @@
 #include <limits>
 #include <vector>
 
+#include "fcl_stpbv/numbers.h"
+
 namespace fcl_stpbv::detail {
 
 class PointTree {
@@ -33,8 +35,8 @@ class PointTree {
               std::size_t atMost = std::numeric_limits<std::size_t>::max()) const;
 
   /// Makes a point invisible to every later query.
-  void remove(int index) { removed_[static_cast<std::size_t>(index)] = 1; }
-  bool isRemoved(int index) const { return removed_[static_cast<std::size_t>(index)] != 0; }
+  void remove(int index) { removed_[at(index)] = 1; }
+  bool isRemoved(int index) const { return removed_[at(index)] != 0; }
 
  private:
   struct Node {

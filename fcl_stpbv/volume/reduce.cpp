@@ -27,7 +27,7 @@ class Reducer {
  public:
   Reducer(const Cloud& points, const StpBvOptions& options, double budget)
       : options_(options), budget_(budget), full_(StpBv::build(points, options)), excess_(points) {
-    for (const int i : convexHull(points).vertices) hull_.push_back(points[static_cast<std::size_t>(i)]);
+    for (const int i : convexHull(points).vertices) hull_.push_back(points[at(i)]);
     const double own = excess_.max(*full_);
     if (!(own <= budget))
       throw Error(formatted(
@@ -152,7 +152,7 @@ class Reducer {
   StpBv::Ptr thin(StpBv::Ptr best) const {
     for (int i = 0; i < best->vertexCount() && best->vertexCount() > 1;) {
       Cloud fewer = best->vertices();
-      const Vector3d dropped = fewer[static_cast<std::size_t>(i)];
+      const Vector3d dropped = fewer[at(i)];
       fewer.erase(fewer.begin() + i);
       const StpBv::Ptr trial = coverFrom(fewer, &dropped);
       if (trial && trial->vertexCount() < best->vertexCount())

@@ -59,7 +59,7 @@ double leastCosine(const StpBv& volume) {
 }
 
 Arc edgeArc(const StpBv& volume, int edge) {
-  const StpBv::Edge& e = volume.edges()[static_cast<std::size_t>(edge)];
+  const StpBv::Edge& e = volume.edges()[at(edge)];
   const Vector3d u = volume.patch(volume.edgePatch(edge)).axis;
   Vector3d start = u.unitOrthogonal();
   if (e.face[0] >= 0) {
@@ -71,7 +71,7 @@ Arc edgeArc(const StpBv& volume, int edge) {
 
 std::vector<Region> regions(const StpBv& volume) {
   std::vector<Region> all(static_cast<std::size_t>(volume.vertexCount()));
-  for (int v = 0; v < volume.vertexCount(); ++v) all[static_cast<std::size_t>(v)].patch = v;
+  for (int v = 0; v < volume.vertexCount(); ++v) all[at(v)].patch = v;
   if (volume.edgeCount() == 0) {
     const Vector3d z = Vector3d::UnitZ();
     return {{0, z, {{Vector3d::UnitX(), z, kTwoPi}}}, {0, -z, {{Vector3d::UnitX(), -z, kTwoPi}}}};
@@ -79,7 +79,7 @@ std::vector<Region> regions(const StpBv& volume) {
   // Key: a face and the vertex where the edge starts in the face's ring.
   std::map<std::pair<int, int>, int> edgeFrom;
   for (int e = 0; e < volume.edgeCount(); ++e) {
-    const StpBv::Edge& edge = volume.edges()[static_cast<std::size_t>(e)];
+    const StpBv::Edge& edge = volume.edges()[at(e)];
     const Arc middle = edgeArc(volume, e);
     const double sine =
         0.5 * (at(volume, edge.vertex[1]) - at(volume, edge.vertex[0])).norm() / volume.radii().rho;
@@ -87,15 +87,13 @@ std::vector<Region> regions(const StpBv& volume) {
     // Seen in the direction of the edge's turn, the second vertex lies on the left, the first one on the
     // right.
     const Vector3d u = middle.axis;
-    all[static_cast<std::size_t>(edge.vertex[1])].boundary.push_back(
-        {cosine * middle.start + sine * u, u, edge.turn, e});
-    all[static_cast<std::size_t>(edge.vertex[0])].boundary.push_back(
-        {cosine * middle.at(1) - sine * u, -u, edge.turn, e});
+    all[at(edge.vertex[1])].boundary.push_back({cosine * middle.start + sine * u, u, edge.turn, e});
+    all[at(edge.vertex[0])].boundary.push_back({cosine * middle.at(1) - sine * u, -u, edge.turn, e});
     // In the ring of face[0] the edge runs from its first vertex, in the ring of face[1] from its second.
     for (const std::size_t side : {0u, 1u}) edgeFrom[{edge.face[side], edge.vertex[side]}] = e;
   }
   for (int f = 0; f < volume.faceCount(); ++f) {
-    const StpBv::Ring& ring = volume.faces()[static_cast<std::size_t>(f)];
+    const StpBv::Ring& ring = volume.faces()[at(f)];
     Region region{volume.facePatch(f), Vector3d::Zero(), {}};
     for (std::size_t k = 0; k < ring.size(); ++k) {
       const int i = ring[k], j = ring[(k + 1) % ring.size()];

@@ -4,13 +4,12 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/volume/stp_bv.h"
 
 namespace fcl_stpbv::detail {
 
-inline const Eigen::Vector3d& at(const StpBv& volume, int vertex) {
-  return volume.vertices()[static_cast<std::size_t>(vertex)];
-}
+inline const Eigen::Vector3d& at(const StpBv& volume, int vertex) { return volume.vertices()[at(vertex)]; }
 
 /// Part of a circle on the unit sphere: `start` turned about the unit `axis` by up to `turn` (rad).
 struct Arc {

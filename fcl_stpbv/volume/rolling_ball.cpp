@@ -40,9 +40,7 @@ class Roller {
 
  private:
   int addFace(Ring ring);
-  Vector3d normalAt(int face, int vertex) const {
-    return balls_[static_cast<std::size_t>(face)].normalAt(cloud_.at(vertex));
-  }
+  Vector3d normalAt(int face, int vertex) const { return balls_[at(face)].normalAt(cloud_.at(vertex)); }
 
   RollingCloud cloud_;
   std::vector<TouchingBall> balls_;
@@ -59,9 +57,9 @@ class Roller {
 
 int Roller::addFace(Ring ring) {
   std::rotate(ring.begin(), std::min_element(ring.begin(), ring.end()), ring.end());
-  int& first = faceAt_[static_cast<std::size_t>(ring[0])];
-  for (int f = first; f >= 0; f = nextFace_[static_cast<std::size_t>(f)]) {
-    const Ring& known = faces[static_cast<std::size_t>(f)];
+  int& first = faceAt_[at(ring[0])];
+  for (int f = first; f >= 0; f = nextFace_[at(f)]) {
+    const Ring& known = faces[at(f)];
     if (known[1] == ring[1] && known[2] == ring[2]) return f;
   }
   const std::array<int, 3> t = wideTriangle(cloud_.points, ring);
@@ -71,8 +69,8 @@ int Roller::addFace(Ring ring) {
   balls_.emplace_back(cloud_.at(t[0]), cloud_.at(t[1]), cloud_.at(t[2]), cloud_.radius);
   const int corners = static_cast<int>(ring.size());
   for (int k = 0; k < corners; ++k) {
-    const int next = ring[static_cast<std::size_t>((k + 1) % corners)];
-    open_.add(ring[static_cast<std::size_t>(k)], next, face, k);
+    const int next = ring[at((k + 1) % corners)];
+    open_.add(ring[at(k)], next, face, k);
     waiting_.push_back({face, k});
   }
   matched_.emplace_back(ring.size(), 0);
@@ -88,9 +86,9 @@ void Roller::roll() {
   while (!waiting_.empty()) {
     const Open h = waiting_.back();
     waiting_.pop_back();
-    auto& isMatched = matched_[static_cast<std::size_t>(h.face)][static_cast<std::size_t>(h.corner)];
+    auto& isMatched = matched_[at(h.face)][at(h.corner)];
     if (isMatched) continue;
-    const Ring ring = faces[static_cast<std::size_t>(h.face)];
+    const Ring ring = faces[at(h.face)];
     const std::size_t k = static_cast<std::size_t>(h.corner);
     const int a = ring[k], b = ring[(k + 1) % ring.size()], c = ring[(k + 2) % ring.size()];
 
@@ -102,7 +100,7 @@ void Roller::roll() {
     }
     const auto close = [&](int from, int to, int owner) {
       const int corner = open_.close(from, to, owner);
-      if (corner >= 0) matched_[static_cast<std::size_t>(owner)][static_cast<std::size_t>(corner)] = 1;
+      if (corner >= 0) matched_[at(owner)][at(corner)] = 1;
       return corner >= 0;
     };
     if (!close(b, a, face) || !close(a, b, h.face) || faces.size() > 2 * cloud_.points.size() + 4)
@@ -125,7 +123,7 @@ namespace {
 std::vector<int> verticesOf(std::size_t points, const std::vector<Ring>& faces) {
   std::vector<char> isVertex(points, 0);
   for (const Ring& ring : faces)
-    for (const int i : ring) isVertex[static_cast<std::size_t>(i)] = 1;
+    for (const int i : ring) isVertex[at(i)] = 1;
   std::vector<int> vertices;
   for (std::size_t i = 0; i < points; ++i)
     if (isVertex[i]) vertices.push_back(static_cast<int>(i));

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/volume/ball_faces.h"
 #include "fcl_stpbv/volume/point_tree.h"
 
@@ -18,7 +19,7 @@ class RollingCloud {
  public:
   RollingCloud(const std::vector<Eigen::Vector3d>& points, double radius);
 
-  const Eigen::Vector3d& at(int i) const { return points[static_cast<std::size_t>(i)]; }
+  const Eigen::Vector3d& at(int i) const { return points[detail::at(i)]; }
   int count() const { return static_cast<int>(points.size()); }
 
   /// Merges the points that are closer to i than rounding into it.

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <utility>
 
+#include "fcl_stpbv/numbers.h"
+
 namespace fcl_stpbv::detail {
 namespace {
 
@@ -37,7 +39,7 @@ std::vector<int> spaceOrder(const std::vector<Eigen::Vector3d>& points) {
     };
     keys.emplace_back(slot(0) | slot(1) << 1 | slot(2) << 2, static_cast<int>(i));
   }
-  const auto at = [&](int i) -> const Eigen::Vector3d& { return points[static_cast<std::size_t>(i)]; };
+  const auto at = [&](int i) -> const Eigen::Vector3d& { return points[detail::at(i)]; };
   std::sort(keys.begin(), keys.end(), [&](const auto& a, const auto& b) {
     if (a.first != b.first) return a.first < b.first;
     const Eigen::Vector3d &p = at(a.second), &q = at(b.second);

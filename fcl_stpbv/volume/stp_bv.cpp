@@ -107,7 +107,7 @@ StpBv::Ptr StpBv::build(const std::vector<Vector3d>& points, const StpBvOptions&
   if (2 * outer.size() < points.size()) {
     std::vector<Vector3d> fewer;
     fewer.reserve(outer.size());
-    for (const int i : outer) fewer.push_back(points[static_cast<std::size_t>(i)]);
+    for (const int i : outer) fewer.push_back(points[at(i)]);
     return build(fewer, options);
   }
   checkRadius(points, options);
@@ -116,11 +116,11 @@ StpBv::Ptr StpBv::build(const std::vector<Vector3d>& points, const StpBvOptions&
     std::vector<int> newIndex(points.size(), -1);
     std::vector<Vector3d> vertices, others;
     for (const int i : hull.vertices) {
-      newIndex[static_cast<std::size_t>(i)] = static_cast<int>(vertices.size());
-      vertices.push_back(points[static_cast<std::size_t>(i)]);
+      newIndex[at(i)] = static_cast<int>(vertices.size());
+      vertices.push_back(points[at(i)]);
     }
     for (Ring& ring : hull.faces)
-      for (int& i : ring) i = newIndex[static_cast<std::size_t>(i)];
+      for (int& i : ring) i = newIndex[at(i)];
     for (std::size_t i = 0; i < points.size(); ++i)
       if (newIndex[i] < 0) others.push_back(points[i]);
     const Ptr volume = make(std::move(vertices), std::move(hull.faces), options);
@@ -174,7 +174,7 @@ StpBv::Ptr StpBv::assemble(std::vector<Vector3d> vertices, std::vector<Ring> fac
                   std::to_string(vertices.size()));
     if (std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end())
       throw Error("face " + std::to_string(f) + " names a vertex twice");
-    for (const int i : sorted) used[static_cast<std::size_t>(i)] = 1;
+    for (const int i : sorted) used[at(i)] = 1;
   }
   if (faces.empty() ? vertices.size() > 2 : std::count(used.begin(), used.end(), 0) > 0)
     throw Error("vertex " + std::to_string(std::find(used.begin(), used.end(), 0) - used.begin()) +
@@ -193,7 +193,7 @@ StpBv::Ptr StpBv::assemble(std::vector<Vector3d> vertices, std::vector<Ring> fac
     if (top.height > tolerance)
       throw Error("vertex " + std::to_string(top.index) + " lies " + number(top.height) +
                   " m outside the ball of face " + std::to_string(f));
-    for (const int i : volume->faces_[static_cast<std::size_t>(f)])
+    for (const int i : volume->faces_[at(f)])
       if (std::find(near.begin(), near.end(), i) == near.end())
         throw Error("vertex " + std::to_string(i) + " of face " + std::to_string(f) +
                     " does not lie on the face's ball");
@@ -256,8 +256,8 @@ Vector3d StpBv::surfacePoint(const Vector3d& n, int hint) const {
 
 Vector3d StpBv::corner(int face, int vertex) const {
   const std::size_t f = static_cast<std::size_t>(face);
-  const Vector3d& first = vertices_[static_cast<std::size_t>(faces_[f][0])];
-  return (faceNormals_[f] + (vertices_[static_cast<std::size_t>(vertex)] - first) / radii_.rho).normalized();
+  const Vector3d& first = vertices_[at(faces_[f][0])];
+  return (faceNormals_[f] + (vertices_[at(vertex)] - first) / radii_.rho).normalized();
 }
 
 std::size_t StpBv::memory() const {

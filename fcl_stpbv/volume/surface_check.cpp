@@ -52,15 +52,14 @@ double patchHeight(const StpBv& volume, int face, int vertex) {
 double height(const StpBv& volume, int face, int vertex) {
   const double rounded = patchHeight(volume, face, vertex);
   if (rounded < -1e-9 * volume.enclosingRadius()) return rounded;
-  const std::array<int, 3> t =
-      wideTriangle(volume.vertices(), volume.faces()[static_cast<std::size_t>(face)]);
+  const std::array<int, 3> t = wideTriangle(volume.vertices(), volume.faces()[at(face)]);
   const TouchingBall ball(at(volume, t[0]), at(volume, t[1]), at(volume, t[2]), volume.radii().rho);
   return ball.valid() ? static_cast<double>(ball.height(at(volume, vertex))) : rounded;
 }
 
 // Largest height of a point over the ball that rolls over an edge, between the two ends of the roll (m).
 double heightOnTheWay(const StpBv& volume, int edge, const Arc& arc, const Vector3d& p) {
-  const StpBv::Edge& e = volume.edges()[static_cast<std::size_t>(edge)];
+  const StpBv::Edge& e = volume.edges()[at(edge)];
   const Vector3d &from = at(volume, e.vertex[0]), along = at(volume, e.vertex[1]) - from, q = p - from;
   const Patch patch = volume.patch(volume.edgePatch(edge));
   const double curvature = 1 / volume.radii().rho, cosine = curvature * patch.kappa;
@@ -87,7 +86,7 @@ double farthestOut(const StpBv& volume, const std::vector<Vector3d>& points) {
   // is a sinusoid of at most that amplitude. If it is outside at an angle x from the tested angle, its height
   // at the tested angle is at least -l x^2 / 2.
   for (int e = 0; e < volume.edgeCount(); ++e) {
-    const StpBv::Edge& edge = volume.edges()[static_cast<std::size_t>(e)];
+    const StpBv::Edge& edge = volume.edges()[at(e)];
     const Vector3d &from = at(volume, edge.vertex[0]), &to = at(volume, edge.vertex[1]);
     const Arc arc = edgeArc(volume, e);
     const double length = (to - from).norm(), sine = 0.5 * curvature * length,
@@ -100,8 +99,7 @@ double farthestOut(const StpBv& volume, const std::vector<Vector3d>& points) {
       if (top.height > low)
         out = std::max(out, top.height);
       else
-        for (const int i : near)
-          out = std::max(out, heightOnTheWay(volume, e, arc, points[static_cast<std::size_t>(i)]));
+        for (const int i : near) out = std::max(out, heightOnTheWay(volume, e, arc, points[at(i)]));
     }
   }
   return out;
@@ -116,7 +114,7 @@ struct CornerHeights {
 CornerHeights cornerHeights(const StpBv& volume) {
   CornerHeights found;
   for (int f = 0; f < volume.faceCount(); ++f) {
-    const StpBv::Ring& ring = volume.faces()[static_cast<std::size_t>(f)];
+    const StpBv::Ring& ring = volume.faces()[at(f)];
     if (ring.size() == 3) continue;
     for (const int i : ring) {
       const double over = height(volume, f, i);
@@ -134,7 +132,7 @@ double vertexHeight(const StpBv& volume, const CornerHeights& corners) {
   for (const StpBv::Edge& edge : volume.edges()) {
     if (edge.face[0] < 0) continue;
     for (const std::size_t side : {0u, 1u}) {
-      const StpBv::Ring& ring = volume.faces()[static_cast<std::size_t>(edge.face[side])];
+      const StpBv::Ring& ring = volume.faces()[at(edge.face[side])];
       const auto from =
           static_cast<std::size_t>(std::find(ring.begin(), ring.end(), edge.vertex[side]) - ring.begin());
       const int over = edge.face[1 - side];
@@ -152,11 +150,9 @@ double vertexHeight(const StpBv& volume, const CornerHeights& corners) {
 double largestGap(const StpBv& volume) {
   double gap = 0;
   for (int f = 0; f < volume.faceCount(); ++f)
-    for (const int i : volume.faces()[static_cast<std::size_t>(f)])
-      gap = std::max(gap, std::abs(patchHeight(volume, f, i)));
+    for (const int i : volume.faces()[at(f)]) gap = std::max(gap, std::abs(patchHeight(volume, f, i)));
   for (int e = 0; e < volume.edgeCount(); ++e)
-    if (volume.edges()[static_cast<std::size_t>(e)].turn >= kWide)
-      gap = std::max(gap, edgeGap(volume, e).largest());
+    if (volume.edges()[at(e)].turn >= kWide) gap = std::max(gap, edgeGap(volume, e).largest());
   return gap;
 }
 
@@ -171,7 +167,7 @@ bool tilesSphere(const StpBv& volume) {
 
 // Angle by which the boundary of a face's region turns left at the `k`th corner of its ring (rad), (-pi, pi].
 double cornerTurn(const StpBv& volume, int face, std::size_t k) {
-  const StpBv::Ring& ring = volume.faces()[static_cast<std::size_t>(face)];
+  const StpBv::Ring& ring = volume.faces()[at(face)];
   const std::size_t corners = ring.size();
   const Vector3d& here = at(volume, ring[k]);
   const Vector3d n = volume.corner(face, ring[k]);
@@ -186,7 +182,7 @@ double cornerTurn(const StpBv& volume, int face, std::size_t k) {
 RegionAngles regionAngles(const StpBv& volume) {
   RegionAngles angles;
   angles.area.assign(static_cast<std::size_t>(volume.patchCount()), 0.0);
-  const auto area = [&](int patch) -> double& { return angles.area[static_cast<std::size_t>(patch)]; };
+  const auto area = [&](int patch) -> double& { return angles.area[at(patch)]; };
   if (volume.edgeCount() == 0) {
     area(0) = 4 * kPi;
     return angles;
@@ -196,14 +192,14 @@ RegionAngles regionAngles(const StpBv& volume) {
   // along the way, too.
   for (int v = 0; v < volume.vertexCount(); ++v) area(v) = 2 * kPi;
   for (int e = 0; e < volume.edgeCount(); ++e) {
-    const StpBv::Edge& edge = volume.edges()[static_cast<std::size_t>(e)];
+    const StpBv::Edge& edge = volume.edges()[at(e)];
     const double sine =
         0.5 * (at(volume, edge.vertex[1]) - at(volume, edge.vertex[0])).norm() / volume.radii().rho;
     area(volume.edgePatch(e)) = 2 * sine * edge.turn;
     for (const int v : edge.vertex) area(v) -= sine * edge.turn;
   }
   for (int f = 0; f < volume.faceCount(); ++f) {
-    const StpBv::Ring& ring = volume.faces()[static_cast<std::size_t>(f)];
+    const StpBv::Ring& ring = volume.faces()[at(f)];
     double sum = 0;
     for (std::size_t k = 0; k < ring.size(); ++k) {
       // At the same corner the vertex's region turns from the cone of one edge to that of the other, by pi
@@ -225,7 +221,7 @@ EdgeGap edgeGap(const StpBv& volume, int e) {
   const auto compare = [&](int a, int b, const Vector3d& n, double* largest) {
     *largest = std::max(*largest, (corePoint(volume, a, n) - corePoint(volume, b, n)).norm());
   };
-  const StpBv::Edge& edge = volume.edges()[static_cast<std::size_t>(e)];
+  const StpBv::Edge& edge = volume.edges()[at(e)];
   const int own = volume.edgePatch(e);
   const double sine =
       0.5 * (at(volume, edge.vertex[1]) - at(volume, edge.vertex[0])).norm() / volume.radii().rho;

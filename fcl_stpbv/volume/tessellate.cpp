@@ -10,6 +10,7 @@
 #include <map>
 
 #include "fcl_stpbv/number_check.h"
+#include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/volume/patch_view.h"
 #include "fcl_stpbv/volume/regions.h"
 
@@ -25,7 +26,7 @@ class Tessellator {
     // A region between two arcs with one step each would become two triangles back to back.
     std::vector<int> arcs(static_cast<std::size_t>(volume.vertexCount()), 0);
     for (const StpBv::Edge& edge : volume.edges())
-      for (const int v : edge.vertex) arcs[static_cast<std::size_t>(v)] += steps(edge.turn) > 1 ? 3 : 1;
+      for (const int v : edge.vertex) arcs[at(v)] += steps(edge.turn) > 1 ? 3 : 1;
     leastRound_ = std::count(arcs.begin(), arcs.end(), 2) > 0 ? 2 : 1;
   }
 
@@ -41,7 +42,7 @@ class Tessellator {
   enum Kind { atVertex, atCorner, besideVertex, besideFace, within, onRing };
   using Place = std::array<int, 4>;
 
-  const StpBv::Edge& edge(int e) const { return volume_.edges()[static_cast<std::size_t>(e)]; }
+  const StpBv::Edge& edge(int e) const { return volume_.edges()[at(e)]; }
   /// Half the turn of the normals along an edge (rad).
   double halfTurn(int e) const { return std::asin(std::min(1.0, volume_.patch(volume_.edgePatch(e)).sine)); }
 

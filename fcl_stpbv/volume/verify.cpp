@@ -37,7 +37,7 @@ double containmentOf(const StpBv& volume, const std::vector<Vector3d>& cloud, do
   const PointTree tree(volume.vertices());
   std::vector<int> near;
   for (const int i : convexHull(cloud).vertices) {
-    const Vector3d& p = cloud[static_cast<std::size_t>(i)];
+    const Vector3d& p = cloud[at(i)];
     tree.within(p, 0, &near, 1);
     if (near.empty() || margin > volume.radii().r)
       worst = std::max(worst, signedDistance(volume, p) + margin);
@@ -53,12 +53,10 @@ struct BoundaryGap {
 BoundaryGap boundaryGapOf(const StpBv& volume, double rounding) {
   BoundaryGap result;
   // A joined face's ball, and with it the edge's arc, may be tilted by as much as the join allows.
-  const auto isJoined = [&](int face) {
-    return face >= 0 && volume.faces()[static_cast<std::size_t>(face)].size() > 3;
-  };
+  const auto isJoined = [&](int face) { return face >= 0 && volume.faces()[at(face)].size() > 3; };
   const double tilted = rounding + 2 * kJoinTilt * volume.radii().rho;
   for (int e = 0; e < volume.edgeCount(); ++e) {
-    const StpBv::Edge& edge = volume.edges()[static_cast<std::size_t>(e)];
+    const StpBv::Edge& edge = volume.edges()[at(e)];
     const EdgeGap gap = edgeGap(volume, e);
     const bool joined0 = isJoined(edge.face[0]), joined1 = isJoined(edge.face[1]);
     result.largest = std::max(result.largest, gap.largest());

@@ -3,6 +3,8 @@
 
 #include <numeric>
 
+#include "fcl_stpbv/numbers.h"
+
 namespace fcl_stpbv::detail {
 
 VertexGraph::VertexGraph(const std::vector<Eigen::Vector3d>& vertices,
@@ -17,13 +19,13 @@ VertexGraph::VertexGraph(const std::vector<Eigen::Vector3d>& vertices,
       const int to = ends[1 - side];
       if (filled[from] == VertexStar::kSize) {
         const auto further = static_cast<std::int32_t>(stars_.size());
-        stars_[static_cast<std::size_t>(last[from])].next = further;
+        stars_[at(last[from])].next = further;
         last[from] = further;
         stars_.emplace_back();
         filled[from] = 0;
       }
-      const Eigen::Vector3d along = vertices[static_cast<std::size_t>(to)] - vertices[from];
-      VertexStar& star = stars_[static_cast<std::size_t>(last[from])];
+      const Eigen::Vector3d along = vertices[at(to)] - vertices[from];
+      VertexStar& star = stars_[at(last[from])];
       for (std::size_t slot = filled[from]++; slot < VertexStar::kSize; ++slot)
         star.set(slot, along.normalized().cast<float>(), to);
     }

@@ -8,6 +8,8 @@
 #include <cstring>
 #include <vector>
 
+#include "fcl_stpbv/numbers.h"
+
 namespace fcl_stpbv::detail {
 
 /// Unit directions of up to eight edges that leave a vertex, in single precision. Unused places repeat the
@@ -61,12 +63,12 @@ class VertexGraph {
   /// The vertex itself, or its neighbour up the steepest edge along `d`. Edges that rise by less than `level`
   /// per metre count as level. `kLevel` times the sum of the absolute components of `d` allows for rounding.
   int uphill(int vertex, const Eigen::Vector3f& d, float level) const {
-    const VertexStar* star = &stars_[static_cast<std::size_t>(vertex)];
+    const VertexStar* star = &stars_[at(vertex)];
     std::int32_t best = star->steepest(d), enough;
     std::memcpy(&enough, &level, sizeof level);
     int over = star->neighbour[best & (VertexStar::kSize - 1)];
     while (star->next >= 0) {
-      star = &stars_[static_cast<std::size_t>(star->next)];
+      star = &stars_[at(star->next)];
       const std::int32_t other = star->steepest(d);
       if (other > best) best = other, over = star->neighbour[other & (VertexStar::kSize - 1)];
     }
@@ -76,7 +78,7 @@ class VertexGraph {
   /// For a vertex that is the highest one along `d`: its neighbour over the edge that descends least.
   /// `length` is at least the length of `d`.
   int beside(int vertex, const Eigen::Vector3f& d, float length) const {
-    const VertexStar& star = stars_[static_cast<std::size_t>(vertex)];
+    const VertexStar& star = stars_[at(vertex)];
     return star.neighbour[star.steepest(d, 2.0f * length) & (VertexStar::kSize - 1)];
   }
 

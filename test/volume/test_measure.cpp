@@ -5,6 +5,7 @@
 #include <limits>
 #include <map>
 
+#include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/volume/measure.h"
 #include "fcl_stpbv/volume/regions.h"
 #include "fcl_stpbv/volume/stp_bv.h"
@@ -20,8 +21,6 @@ using namespace fcl_stpbv::test;
 using Eigen::Vector3d;
 
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 double meshVolume(const TriangleMesh& mesh, const Vector3d& centre) {
   double sum = 0;
