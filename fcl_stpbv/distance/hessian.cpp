@@ -1,13 +1,21 @@
 // Second derivatives of the distance (docs/theory.md, 6).
 //
-// 1. The normal moves with body 2 and turns relative to it so that the gap is maximal. Flat features fix it;
+// 1. Find the features that face each other at the answer.
+// 2. The normal moves with body 2 and turns relative to it so that the gap is maximal. Flat features fix it;
 //    edges let it turn in one direction (turning.h).
-// 2. The distance is a maximum over these turns, so its second derivative is s_qq - s_qn s_nn^-1 s_nq.
-// 3. Normal and witness points follow from the turn.
+// 3. The distance is a maximum over these turns, so its second derivative is s_qq - s_qn s_nn^-1 s_nq.
+// 4. Normal and witness points follow from the turn.
 #include "fcl_stpbv/distance/hessian.h"
 
+#include <Eigen/Geometry>
+#include <cmath>
+#include <limits>
+#include <type_traits>
+
+#include "fcl_stpbv/convex/relative_pose.h"
 #include "fcl_stpbv/cross_matrix.h"
-#include "fcl_stpbv/distance/touch.h"
+#include "fcl_stpbv/distance/patch_pair.h"
+#include "fcl_stpbv/distance/turning.h"
 
 namespace fcl_stpbv {
 
@@ -19,6 +27,111 @@ using Eigen::Vector3d;
 namespace {
 
 using namespace detail;
+
+/// Two bodies at an answer. The normal moves with body 2 and turns relative to it by `tau`, which maximises s
+/// over the possible turns:
+///
+///     n = exp(w_B) (n0 + tau),   s = n.(o_B - o_A) - h_B(body 2's normal) - h_A(n seen from body 1)
+struct Touch {
+  Turning meeting;
+  Eigen::Vector3d armA, fromB;  // body 1's witness point relative to both origins
+};
+
+double placeRounding(double size) { return 32.0 * std::numeric_limits<double>::epsilon() * size; }
+
+// Overloads for both kinds of bodies.
+double sizeOf(const StpBv& body) { return body.centre().norm() + body.enclosingRadius(); }
+double sizeOf(const Shape& shape) { return shape.centre.norm() + shape.reach; }
+double marginOf(const StpBv&) { return 0.0; }
+double marginOf(const Shape& shape) { return shape.margin; }
+
+/// Body 1 or 2 at an answer: its outward normal, its witness point and its patch.
+struct Side {
+  Vector3d normal, point;
+  int patch;
+};
+
+/// The rotation of a pose. It is corrected, as it was for the answer, if it is off by more than the rounding
+/// with which features are distinguished. False if it is no rotation.
+bool rotationOf(const Isometry3d& pose, Matrix3d& rotation) {
+  constexpr double kMost = 1e-14;
+  rotation = pose.linear();
+  const auto x = rotation.col(0), y = rotation.col(1), z = rotation.col(2);
+  if (std::abs(x.dot(x) - 1.0) <= kMost && std::abs(y.dot(y) - 1.0) <= kMost &&
+      std::abs(z.dot(z) - 1.0) <= kMost && std::abs(x.dot(y)) <= kMost && std::abs(y.dot(z)) <= kMost &&
+      std::abs(z.dot(x)) <= kMost)
+    return true;
+  Isometry3d rigid = pose;
+  if (!makeRigid(rigid)) return false;
+  rotation = rigid.linear();
+  return true;
+}
+
+/// The feature at the witness point, in world axes. `placed` is the rounding error of coordinates relative to
+/// the other body (m), `angle` that of the normal (rad).
+bool featureOf(const StpBv& body, const Isometry3d& pose, const Side& at, double, double,
+               NormalCone& feature) {
+  if (at.patch < 0 || at.patch >= body.patchCount()) return false;
+  const Radii& radii = body.radii();
+  const PatchKind kind = body.kind(at.patch);
+  const Vector3d& n = at.normal;
+  if (kind != PatchKind::edge) {
+    const double radius = kind == PatchKind::face ? radii.R : radii.r;
+    const Vector3d e = n.unitOrthogonal();
+    feature = {2, n, {e, n.cross(e)}, {radius, radius}, 0.0};
+    return true;
+  }
+  Matrix3d rotation;
+  if (!rotationOf(pose, rotation)) return false;
+  PosedPatch posed = posedPatch(body, at.patch);
+  const Vector3d axis = rotation * unpack(posed.axis);
+  posed.axis = pack(axis);
+  const EdgeView e = viewEdge(posed, pack(n));
+  const Vector3d around = axis.cross(n) / e.c;
+  feature = {2, n, {around, n.cross(around)}, {radii.r + e.around, radii.R}, 0.0};
+  return true;
+}
+
+bool featureOf(const Shape& shape, const Isometry3d& pose, const Side& at, double placed, double angle,
+               NormalCone& feature) {
+  Matrix3d q;
+  if (!rotationOf(pose, q)) return false;
+  const double rounding = 1e-13 * shape.reach + placed + 2.0 * shape.reach * angle;
+  if (!normalCone(shape, q.transpose() * at.normal, q.transpose() * (at.point - pose.translation()), rounding,
+                  feature))
+    return false;
+  feature.normal = at.normal;
+  for (Vector3d& way : feature.way) way = q * way;
+  return true;
+}
+
+/// The touch of two bodies, each an STP-BV or a shape, at the answer `d`. Rotations are corrected as in the
+/// query. False if second derivatives do not exist.
+template <typename A, typename B>
+bool touchOf(const A& a, const Isometry3d& poseA, const B& b, const Isometry3d& poseB, const Distance& d,
+             Touch& touch) {
+  constexpr bool kVolumes = std::is_same_v<A, StpBv> && std::is_same_v<B, StpBv>,
+                 kShapes = std::is_same_v<A, Shape> && std::is_same_v<B, Shape>;
+  if (d.status != DistanceStatus::exact && !(kVolumes && d.status == DistanceStatus::local)) return false;
+  if (d.normal.isZero(0)) return false;
+  const double placed =
+      placeRounding((poseB.translation() - poseA.translation()).norm() + sizeOf(a) + sizeOf(b));
+  const double margins = marginOf(a) + marginOf(b);
+  double angle = 0.0;
+  if (kShapes) {  // the error of the normal of cores that almost touch is rounding divided by their distance
+    constexpr double kMost = 1e-3;  // rad
+    const double core = std::abs(d.distance + margins);
+    angle = placed < kMost * core ? placed / core : kMost;
+  }
+  NormalCone first, second;
+  if (!featureOf(a, poseA, {d.normal, d.point[0], d.patch[0]}, placed, angle, first) ||
+      !featureOf(b, poseB, {-d.normal, d.point[1], d.patch[1]}, placed, angle, second))
+    return false;
+  touch.armA = d.point[0] - poseA.translation();
+  touch.fromB = d.point[0] - poseB.translation();
+  constexpr double kTold = 4.0;  // times rounding: a smaller sum of radii of curvature counts as zero
+  return touch.meeting.set(first, second, d.distance, kTold * (placed + placeRounding(margins)));
+}
 
 /// The matrix `t` with `w^T t w = a.(w x (w x n))`: second-order change of a rotating body's normal, times
 /// `a`.
