@@ -1,5 +1,5 @@
 // The gap of two STP-BVs along a normal. The owner of the normal on each body is found by a walk over patches
-// from a hint; the gap is then one closed form (core_gap.h).
+// from a hint; the gap is then one closed form (patch_pair.h).
 #include "fcl_stpbv/distance/body_pair.h"
 
 #include "fcl_stpbv/vectorized.h"

@@ -1,4 +1,5 @@
-// The normal along which two patches are furthest apart.
+// Two patches in one frame: the gap between their cores along a normal, and the normal along which it is
+// widest.
 #pragma once
 
 #include <Eigen/Core>
@@ -6,9 +7,25 @@
 #include <limits>
 
 #include "fcl_stpbv/convex/local_maximum.h"
-#include "fcl_stpbv/distance/core_gap.h"
+#include "fcl_stpbv/volume/patch_view.h"
 
 namespace fcl_stpbv::detail {
+
+/// The gap between two patches along one normal, without their margins.
+struct CoreGap {
+  double value;   ///< between the supporting planes, `s(n) + r_A + r_B` (m)
+  Packed point;   ///< the first patch's, in the patches' frame (m)
+  Packed across;  ///< gradient over the sphere of normals: the points' difference across the normal (m)
+};
+
+/// The gap along the unit normal `n` from `a` to `b`. The formulas of the patches are used for any normal,
+/// also outside of their regions (docs/theory.md, 5).
+inline CoreGap coreGap(const PosedPatch& a, const PosedPatch& b, const Packed& n) {
+  const CoreView viewA = viewCore(a, n), viewB = viewCore(b, -n);
+  const Packed anchors = b.anchor - a.anchor, difference = anchors + viewB.offset - viewA.offset;
+  return {dot(n, anchors) - viewA.rise - viewB.rise, a.anchor + viewA.offset,
+          difference - dot(difference, n) * n};
+}
 
 /// Changes `n` to the widest normal of the patches of two edges, which are tori. If their axes cross, it is a
 /// closed form with a few iterations; otherwise Newton's method on the sphere (docs/theory.md, 5).

@@ -3,8 +3,8 @@
 // 1. Bodies of revolution with parallel axes have the same depth towards all generators. EPA would need too
 //    many faces for that. A polygon in the plane of their axes gives their depth instead (convex/meridian.h).
 // 2. Otherwise EPA (convex/epa.h) on the difference of the cores. When it is near the answer, Newton's method
-//    on the features there (shape_newton.h) gives the maximum up to rounding. For shapes with known features,
-//    a region around the maximum is proven, and EPA's faces there are removed from the search.
+//    on the features there (shape_newton.cpp) gives the maximum up to rounding. For shapes with known
+//    features, a region around the maximum is proven, and EPA's faces there are removed from the search.
 // 3. For curved shapes Newton's method gives the last digits of normal and points, if step 2 did not.
 // 4. If it fails, and for flat shapes, candidates for the two points opposite each other are those of the
 //    answer, points where cores cross without a common volume, and points of the features around and of
@@ -18,7 +18,6 @@
 #include "fcl_stpbv/convex/meridian.h"
 #include "fcl_stpbv/convex/onto_core.h"
 #include "fcl_stpbv/convex/shape_around.h"
-#include "fcl_stpbv/distance/shape_newton.h"
 #include "fcl_stpbv/distance/shape_pair.h"
 #include "fcl_stpbv/numbers.h"
 

@@ -12,8 +12,6 @@
 //    their distance equals that of the supporting planes.
 // For a polytope only the few vertices that can be support points for normals near `n` are used, and all of
 // them for the final test.
-#include "fcl_stpbv/distance/shape_newton.h"
-
 #include <algorithm>
 #include <array>
 
@@ -21,6 +19,7 @@
 #include "fcl_stpbv/convex/support.h"
 #include "fcl_stpbv/convex/vertex_cap.h"
 #include "fcl_stpbv/convex/vertex_set.h"
+#include "fcl_stpbv/distance/shape_pair.h"
 #include "fcl_stpbv/distance/turning.h"
 #include "fcl_stpbv/numbers.h"
 

@@ -8,7 +8,7 @@
 // 4. Otherwise GJK. Its two starting points come from alternating projections onto both bodies. It stops by
 //    the duality gap: the upper bound is the distance of two points of the bodies, the lower bound is the gap
 //    between the two supporting planes of the normal.
-// 5. Newton's method on the features gives the last digits (shape_newton.h), or, for nearly parallel faces,
+// 5. Newton's method on the features gives the last digits (shape_newton.cpp), or, for nearly parallel faces,
 //    level_faces.cpp. For overlap see shape_depth.cpp.
 #include "fcl_stpbv/distance/shape_pair.h"
 
@@ -18,7 +18,6 @@
 #include "fcl_stpbv/convex/onto_core.h"
 #include "fcl_stpbv/convex/vertex_cap.h"
 #include "fcl_stpbv/distance/shape_distance.h"
-#include "fcl_stpbv/distance/shape_newton.h"
 #include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/vectorized.h"
 

@@ -1,4 +1,4 @@
-// A pair of simple shapes: data and functions that its searches share (shape_pair.cpp, shape_depth.cpp).
+// A pair of simple shapes, and the steps of its searches (shape_pair.cpp, shape_depth.cpp).
 #pragma once
 
 #include <Eigen/Geometry>
@@ -9,9 +9,17 @@
 #include "fcl_stpbv/convex/gjk.h"
 #include "fcl_stpbv/convex/support.h"
 #include "fcl_stpbv/distance/distance.h"
-#include "fcl_stpbv/distance/shape_newton.h"
 
 namespace fcl_stpbv::detail {
+
+/// Two points of the cores that are opposite each other along a normal. Frame of the first shape.
+struct OppositePoints {
+  Eigen::Vector3d n{0, 0, 1};  ///< unit, from the first shape to the second
+  double gap =
+      -std::numeric_limits<double>::infinity();  ///< between the cores' supporting planes along it (m)
+  Eigen::Vector3d onA{0, 0, 0};                  ///< the first core's point
+  Eigen::Vector3d toB{0, 0, 0};  ///< from there to the second core's, `gap` along `n` to rounding
+};
 
 /// A pair of shapes in canonical order, in the frame of the first one.
 struct ShapePair {
@@ -100,6 +108,23 @@ bool oppositeSegments(const ShapePair& p, OppositePoints& found);
 
 /// Closed form for two boxes, unless a corner is nearest to a corner or to an edge.
 bool oppositeBoxes(const ShapePair& p, OppositePoints& found);
+
+/// What a search knows about the widest gap between two cores. Frame of the first shape.
+struct NearNormal {
+  Eigen::Vector3d n;    ///< unit, from the first shape to the second
+  double gap;           ///< along it (m)
+  Eigen::Vector3d onA;  ///< a point of the first core near the answer's
+  double angle;         ///< error of `n` (rad)
+  /// The answer's features probably reach from the support points along `n` down to these heights (m); not
+  /// used if negative.
+  double featureA = -1.0, featureB = -1.0;
+};
+
+/// The widest gap between the cores of two bounded shapes, with the two points; for cores apart these are the
+/// nearest points. Lengths within `rounding` (m) count as equal. No value if the features near the known
+/// normal do not contain an answer with at least its gap.
+std::optional<OppositePoints> nearestOnFeatures(const Shape& a, const Shape& b, const RelativePose& pose,
+                                                const NearNormal& known, double rounding);
 
 /// For two cores apart and a normal `n` that is accurate to the square root of rounding: the widest gap and
 /// two points opposite each other. No value if rounding prevents it.
