@@ -3,8 +3,7 @@
 //
 // 1. Put the pair into a canonical order, so that both orders of the arguments are the same query.
 // 2. Half spaces and planes: the distance is the gap along their normal.
-// 3. A ball and a shape of few features, two capsules, and most boxes: closed form (ball_pair.cpp,
-//    segment_pair.cpp, box_pair.cpp).
+// 3. A ball and a shape of few features, two capsules, and most boxes: closed form (closed_forms.cpp).
 // 4. Otherwise GJK. Its two starting points come from alternating projections onto both bodies. It stops by
 //    the duality gap: the upper bound is the distance of two points of the bodies, the lower bound is the gap
 //    between the two supporting planes of the normal.
@@ -202,16 +201,11 @@ Distance separatedAtTheEnd(const Pair& p, Gjk& found) {
   return separated(p, found, true);
 }
 
-/// Pairs that need no search.
-bool inClosedForm(const Pair& p, OppositePoints& at) {
-  return oppositeBall(p, at) || oppositeSegments(p, at) || oppositeBoxes(p, at);
-}
-
 Distance solve(const Pair& p) {
   if (!p.valid) return {};
   if (p.a.unbounded()) return besidePlane(p);
   OppositePoints at;
-  if (inClosedForm(p, at))
+  if (oppositeInClosedForm(p, at))
     return between(p, at.n, at.gap, at.onA, at.toB, at.gap < 0.0 ? at.gap : at.toB.norm());
   constexpr int kRounds = 6;
   Gjk found = p.search([&](double lower, double upper) { return p.curved() && isNear(p, lower, upper); },
@@ -244,7 +238,7 @@ bool isFarther(double x, const Pair& p, Vector3d& normal) {
   if (!p.valid) return false;
   if (p.a.unbounded()) return besidePlane(p).lower > x;
   OppositePoints at;
-  const bool known = inClosedForm(p, at);
+  const bool known = oppositeInClosedForm(p, at);
   const bool farther = at.gap - p.margins() - p.certificate > x;
   if (farther) normal = p.pose.normalInWorld(at.n);
   if (known || farther) return farther;

@@ -98,16 +98,10 @@ struct ShapePair {
   Distance inWorld(const Eigen::Vector3d& n, const Eigen::Vector3d& onA, const Eigen::Vector3d& toB) const;
 };
 
-/// Closed form for a ball `a` and the core of `b`: the ball's centre and the point of the core's surface
-/// nearest to it. False for other pairs, and if there is no closed form; `found` may then still have a gap
-/// along a normal.
-bool oppositeBall(const ShapePair& p, OppositePoints& found);
-
-/// Closed form for two capsules whose cores are apart.
-bool oppositeSegments(const ShapePair& p, OppositePoints& found);
-
-/// Closed form for two boxes, unless a corner is nearest to a corner or to an edge.
-bool oppositeBoxes(const ShapePair& p, OppositePoints& found);
+/// The points opposite each other for pairs that need no search: a ball and a shape of few features, two
+/// capsules, and most boxes. False for other pairs, and if there is no closed form; `found` may then still
+/// have a gap along a normal.
+bool oppositeInClosedForm(const ShapePair& p, OppositePoints& found);
 
 /// What a search knows about the widest gap between two cores. Frame of the first shape.
 struct NearNormal {
