@@ -1,6 +1,6 @@
 // Two simple shapes whose distance has a closed form.
 //
-// 1. A ball and a shape of few features. Its centre is outside the core: the core's nearest point, feature by
+// 1. A ball and a shape of few features. Its centre outside the core: the core's nearest point, feature by
 //    feature (convex/shape_feature.h), tested against the whole core. Inside: the nearest of the planes that
 //    touch the core. The ball around the centre that touches this plane lies in the core, so no other way out
 //    is shorter.

@@ -7,7 +7,7 @@
 //    (convex/direction_cone.h), which is slow but reliable. From the normal found, a second feature search
 //    proves the last digits.
 // 4. For cores that overlap (detected by a ball inside the volume, or by GJK), three methods in turn: a
-//    single point's way out through a face (point_overlap.cpp), the normal cones of a flat shape
+//    single point's way out through a face (shape_overlap.cpp), the normal cones of a flat shape
 //    (cone_overlap.cpp), and EPA (shape_overlap.cpp).
 #include "fcl_stpbv/distance/shape_distance.h"
 
