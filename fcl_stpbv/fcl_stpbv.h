@@ -10,7 +10,6 @@
 #include "fcl_stpbv/adapter/stp_bv_geometry.h"
 #include "fcl_stpbv/distance/distance.h"
 #include "fcl_stpbv/distance/hessian.h"
-#include "fcl_stpbv/distance/shape_distance.h"
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/io/volume_files.h"
 #include "fcl_stpbv/volume/measure.h"

@@ -8,7 +8,6 @@
 
 #include "bodies.h"
 #include "fcl_stpbv/distance/distance.h"
-#include "fcl_stpbv/distance/shape_distance.h"
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/formatted.h"
 #include "fcl_stpbv/io/volume_files.h"

@@ -1,5 +1,5 @@
-// The distance of two FCL geometries, by type: two STP-BVs by distance/distance.h; a simple shape and another
-// shape or an STP-BV by distance/shape_distance.h; meshes and octrees by nearest_pair.h.
+// The distance of two FCL geometries, by type: STP-BVs and simple shapes by distance/distance.h, meshes and
+// octrees by nearest_pair.h.
 #include "fcl_stpbv/adapter/fcl_distance.h"
 
 #include "fcl_stpbv/adapter/element_tree.h"
@@ -8,7 +8,7 @@
 #include "fcl_stpbv/adapter/known_trees.h"
 #include "fcl_stpbv/adapter/nearest_pair.h"
 #include "fcl_stpbv/adapter/polyhedral_witness.h"
-#include "fcl_stpbv/distance/shape_distance.h"
+#include "fcl_stpbv/distance/distance.h"
 #include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/vectorized.h"
 

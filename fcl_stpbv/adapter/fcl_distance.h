@@ -115,7 +115,7 @@ bool hasFiniteCorners(const fcl::CollisionGeometryd& geometry);
 /// - An STP-BV and an STP-BV, or any other FCL geometry, in either order: exact and signed, with status,
 ///   bounds and derivatives.
 /// - Two other shapes, one of them bounded: signed, by this library's own GJK and, if they overlap, EPA
-///   (distance/shape_distance.h); `continuous` is false.
+///   (distance/distance.h); `continuous` is false.
 /// - A mesh or an octree: the distance of the nearest elements; `continuous` is false. Two of them that
 ///   overlap have the distance 0, with the elements that meet.
 ///

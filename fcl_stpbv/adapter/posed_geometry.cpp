@@ -13,7 +13,7 @@
 #include "fcl_stpbv/adapter/fcl_shapes.h"
 #include "fcl_stpbv/adapter/stp_bv_geometry.h"
 #include "fcl_stpbv/convex/relative_pose.h"
-#include "fcl_stpbv/distance/shape_distance.h"
+#include "fcl_stpbv/distance/distance.h"
 #include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/vectorized.h"
 

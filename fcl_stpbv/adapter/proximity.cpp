@@ -10,7 +10,7 @@
 #include "fcl_stpbv/adapter/fcl_distance.h"
 #include "fcl_stpbv/adapter/posed_geometry.h"
 #include "fcl_stpbv/convex/relative_pose.h"
-#include "fcl_stpbv/distance/shape_distance.h"
+#include "fcl_stpbv/distance/distance.h"
 #include "fcl_stpbv/distance/threshold.h"
 
 namespace fcl_stpbv {

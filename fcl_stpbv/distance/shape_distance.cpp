@@ -9,8 +9,6 @@
 // 4. For cores that overlap (detected by a ball inside the volume, or by GJK), three methods in turn: a
 //    single point's way out through a face (shape_overlap.cpp), the normal cones of a flat shape
 //    (cone_overlap.cpp), and EPA (shape_overlap.cpp).
-#include "fcl_stpbv/distance/shape_distance.h"
-
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -19,6 +17,7 @@
 #include "fcl_stpbv/convex/gjk.h"
 #include "fcl_stpbv/convex/onto_core.h"
 #include "fcl_stpbv/convex/support.h"
+#include "fcl_stpbv/distance/distance.h"
 #include "fcl_stpbv/distance/shape_query.h"
 #include "fcl_stpbv/numbers.h"
 

@@ -16,7 +16,7 @@
 
 #include "fcl_stpbv/convex/onto_core.h"
 #include "fcl_stpbv/convex/vertex_cap.h"
-#include "fcl_stpbv/distance/shape_distance.h"
+#include "fcl_stpbv/distance/distance.h"
 #include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/vectorized.h"
 

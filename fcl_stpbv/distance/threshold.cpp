@@ -21,7 +21,7 @@
 #include "fcl_stpbv/convex/gjk.h"
 #include "fcl_stpbv/convex/support.h"
 #include "fcl_stpbv/distance/body_pair.h"
-#include "fcl_stpbv/distance/shape_distance.h"
+#include "fcl_stpbv/distance/distance.h"
 #include "fcl_stpbv/distance/shape_query.h"
 #include "fcl_stpbv/distance/vertex_gjk.h"
 #include "fcl_stpbv/numbers.h"
@@ -85,14 +85,11 @@ bool isFartherThan(double x, const StpBv& a, const Isometry3d& poseA, const StpB
     const Distance found = distance(a, poseA, b, poseB, start);
     return found.status != DistanceStatus::invalid && found.lower > x;
   };
-  const auto remember = [&](const Sample& s) {
-    if (cache)
-      *cache = {pose.normalInWorld(s.n), s.patch, {s.n.cast<float>(), pair.opposite(s.n).cast<float>()}};
-  };
   int ignored = 0;
   const auto isPlaneBetween = [&](const Sample& s) {
     if (!(s.core - margins - rounding > x)) return false;
-    remember(s);
+    if (cache)
+      *cache = {pose.normalInWorld(s.n), s.patch, {s.n.cast<float>(), pair.opposite(s.n).cast<float>()}};
     return true;
   };
   if (cache && isRecent(*cache, pair, pose)) {

@@ -7,7 +7,7 @@
 #include <algorithm>
 
 #include "fcl_stpbv/adapter/fcl_shapes.h"
-#include "fcl_stpbv/distance/shape_distance.h"
+#include "fcl_stpbv/distance/distance.h"
 #include "fcl_stpbv/numbers.h"
 
 namespace fcl_stpbv::report {

@@ -9,7 +9,7 @@
 
 #include "fcl_stpbv/adapter/hull_geometry.h"
 #include "fcl_stpbv/convex/hull_graph.h"
-#include "fcl_stpbv/distance/shape_distance.h"
+#include "fcl_stpbv/distance/distance.h"
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/io/text_scanner.h"
 #include "fcl_stpbv/number_check.h"

@@ -21,7 +21,7 @@
 #include <cmath>
 
 #include "fcl_stpbv/adapter/fcl_distance.h"
-#include "fcl_stpbv/distance/shape_distance.h"
+#include "fcl_stpbv/distance/distance.h"
 #include "test/reference/fcl_bodies.h"
 
 using namespace fcl_stpbv;

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "fcl_stpbv/distance/shape_distance.h"
+#include "fcl_stpbv/distance/distance.h"
 
 namespace fcl_stpbv::test {
 

@@ -10,8 +10,8 @@
 #include <cstdlib>
 #include <string>
 
+#include "fcl_stpbv/distance/distance.h"
 #include "fcl_stpbv/distance/hessian.h"
-#include "fcl_stpbv/distance/shape_distance.h"
 #include "test/reference/arguments.h"
 #include "test/reference/shape_reference.h"
 

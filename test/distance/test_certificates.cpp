@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "fcl_stpbv/distance/shape_distance.h"
+#include "fcl_stpbv/distance/distance.h"
 #include "test/distance/enclosure.h"
 #include "test/reference/reference.h"
 #include "test/reference/shape_reference.h"

@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "fcl_stpbv/convex/onto_core.h"
-#include "fcl_stpbv/distance/shape_distance.h"
+#include "fcl_stpbv/distance/distance.h"
 #include "fcl_stpbv/distance/shape_query.h"
 #include "test/reference/shape_reference.h"
 

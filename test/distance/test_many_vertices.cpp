@@ -7,7 +7,7 @@
 #include <memory>
 
 #include "fcl_stpbv/convex/shape_curvature.h"
-#include "fcl_stpbv/distance/shape_distance.h"
+#include "fcl_stpbv/distance/distance.h"
 #include "test/reference/shape_reference.h"
 #include "test/reference/trials.h"
 

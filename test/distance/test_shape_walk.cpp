@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "fcl_stpbv/convex/shape_feature.h"
-#include "fcl_stpbv/distance/shape_distance.h"
+#include "fcl_stpbv/distance/distance.h"
 #include "fcl_stpbv/distance/threshold.h"
 #include "test/reference/motion.h"
 #include "test/reference/shapes.h"

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "fcl_stpbv/distance/shape_distance.h"
+#include "fcl_stpbv/distance/distance.h"
 #include "test/reference/shape_reference.h"
 #include "test/reference/trials.h"
 

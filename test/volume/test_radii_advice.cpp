@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "fcl_stpbv/distance/shape_distance.h"
+#include "fcl_stpbv/distance/distance.h"
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/volume/covered_hull.h"
 #include "fcl_stpbv/volume/measure.h"
