@@ -4,8 +4,11 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+
+#include "fcl_stpbv/adapter/posed_geometry.h"
 
 namespace fcl_stpbv::detail {
 
@@ -86,5 +89,24 @@ inline Cover speedCover(double gap, double speed, double acceleration, double mo
   const double time = timeAbove(gap - slack, -speed, acceleration, most);
   return {time, time};
 }
+
+/// Two moving geometries at one time. An unbounded geometry must not rotate.
+struct MovingNow {
+  const PosedPair& pair;
+  Eigen::Isometry3d pose;  ///< pose of the first geometry
+  Eigen::Vector3d normal;  ///< unit normal of the present distance, from the first geometry to the second
+  std::array<Eigen::Vector3d, 2> point;  ///< witness points of the present distance
+  Eigen::Vector3d about;  ///< a point between the witness points, to which the velocities refer
+  std::array<BodyVelocity, 2> velocity;
+  /// Upper bound on the speed at which any two points of the geometries approach now (m per unit of time).
+  double speed;
+  double acceleration;  ///< upper bound on the growth of that speed per unit of time
+  double margin;
+  double slack;  ///< allowance for rounding in a gap (m)
+};
+
+/// The time, up to `most`, for which planes between their elements keep the geometries apart. At least
+/// `known`, a time that is already known to hold for any two elements.
+Cover elementCover(const MovingNow& now, double most, const Cover& known);
 
 }  // namespace fcl_stpbv::detail

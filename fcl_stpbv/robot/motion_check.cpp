@@ -12,8 +12,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fcl_stpbv/adapter/element_cover.h"
 #include "fcl_stpbv/adapter/motion_search.h"
+#include "fcl_stpbv/adapter/moving_bodies.h"
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/robot/collision_checker.h"

@@ -5,7 +5,7 @@
 // 3. for two elements, also as long as the plane of their own distance stays between them (for example a wall
 //    beside the floor).
 // Parts that stay apart longer than two elements already found are skipped.
-#include "fcl_stpbv/adapter/element_cover.h"
+#include "fcl_stpbv/adapter/moving_bodies.h"
 
 #include "fcl_stpbv/numbers.h"
 
