@@ -5,9 +5,9 @@
 #include <limits>
 #include <optional>
 
-#include "fcl_stpbv/adapter/known_trees.h"
 #include "fcl_stpbv/adapter/motion_search.h"
 #include "fcl_stpbv/adapter/moving_bodies.h"
+#include "fcl_stpbv/adapter/nearest_pair.h"
 #include "fcl_stpbv/adapter/posed_geometry.h"
 #include "fcl_stpbv/convex/relative_pose.h"
 

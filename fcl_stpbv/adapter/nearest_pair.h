@@ -1,4 +1,5 @@
-// Finds the nearest two elements of two geometries, at least one of which is a mesh or an octree.
+// Finds the nearest two elements of two geometries, at least one of which is a mesh or an octree; and
+// distance() for callers that ask about the same geometries again and again.
 #pragma once
 
 #include <fcl/geometry/collision_geometry.h>
@@ -8,7 +9,7 @@
 #include <limits>
 
 #include "fcl_stpbv/adapter/element_tree.h"
-#include "fcl_stpbv/distance/distance.h"
+#include "fcl_stpbv/adapter/fcl_distance.h"
 
 namespace fcl_stpbv::detail {
 
@@ -31,5 +32,11 @@ struct ElementsDistance {
 ElementsDistance nearestElements(const fcl::CollisionGeometryd& geometry1, const Eigen::Isometry3d& pose1,
                                  const fcl::CollisionGeometryd& geometry2, const Eigen::Isometry3d& pose2,
                                  bool finite, const KnownTrees& trees = {}, PairCache* cache = nullptr);
+
+/// Like the public distance(), but reuses `trees`, which already contain the boxes that replace merged ones.
+/// `context.finite` then only states that all vertices are finite.
+DistanceAnswer distance(const fcl::CollisionGeometryd& geometry1, const fcl::Transform3d& pose1,
+                        const fcl::CollisionGeometryd& geometry2, const fcl::Transform3d& pose2,
+                        const QueryContext& context, const KnownTrees& trees);
 
 }  // namespace fcl_stpbv::detail
