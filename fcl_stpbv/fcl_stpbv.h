@@ -4,7 +4,6 @@
 
 #include "fcl_stpbv/adapter/collide.h"
 #include "fcl_stpbv/adapter/continuous_collide.h"
-#include "fcl_stpbv/adapter/distance_callback.h"
 #include "fcl_stpbv/adapter/fcl_distance.h"
 #include "fcl_stpbv/adapter/fcl_hessian.h"
 #include "fcl_stpbv/adapter/stp_bv_geometry.h"

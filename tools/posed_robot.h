@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "fcl_stpbv/adapter/distance_callback.h"
+#include "fcl_stpbv/adapter/fcl_distance.h"
 #include "fcl_stpbv/robot/kinematics.h"
 #include "fcl_stpbv/robot/link_geometry.h"
 

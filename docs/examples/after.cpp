@@ -8,7 +8,7 @@
 #include <memory>
 
 #include "docs/examples/reported.h"
-#include "fcl_stpbv/adapter/distance_callback.h"
+#include "fcl_stpbv/adapter/fcl_distance.h"
 
 namespace {
 

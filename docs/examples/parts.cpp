@@ -7,7 +7,7 @@
 
 #include "docs/examples/named.h"
 #include "docs/examples/reported.h"
-#include "fcl_stpbv/adapter/distance_callback.h"
+#include "fcl_stpbv/adapter/fcl_distance.h"
 #include "fcl_stpbv/parts/convex_parts.h"
 #include "fcl_stpbv/robot/mesh_file.h"
 #include "fcl_stpbv/robot/scene_model.h"

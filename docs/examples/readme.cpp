@@ -4,7 +4,7 @@
 #include <cstdio>
 
 #include "docs/examples/reported.h"
-#include "fcl_stpbv/adapter/distance_callback.h"
+#include "fcl_stpbv/adapter/fcl_distance.h"
 #include "fcl_stpbv/adapter/fcl_hessian.h"
 
 namespace {

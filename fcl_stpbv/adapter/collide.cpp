@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "fcl_stpbv/adapter/distance_callback.h"
 #include "fcl_stpbv/adapter/fcl_distance.h"
 #include "fcl_stpbv/adapter/posed_geometry.h"
 #include "fcl_stpbv/numbers.h"

@@ -46,8 +46,6 @@ std::size_t collide(const fcl::CollisionObject<S>* object1, const fcl::Collision
   return 0;
 }
 
-class PairCaches;
-
 /// Input and output of `collisionCallback`; pass its address to a manager's `collide`. Contacts accumulate in
 /// `result`: use a new object for each query.
 struct CollisionData {

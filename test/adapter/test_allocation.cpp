@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "fcl_stpbv/adapter/continuous_collide.h"
-#include "fcl_stpbv/adapter/distance_callback.h"
 #include "fcl_stpbv/adapter/element_tree.h"
 #include "fcl_stpbv/adapter/fcl_distance.h"
 #include "fcl_stpbv/adapter/polyhedral_witness.h"

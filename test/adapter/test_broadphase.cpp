@@ -16,7 +16,7 @@
 #include <string>
 
 #include "fcl_stpbv/adapter/collide.h"
-#include "fcl_stpbv/adapter/distance_callback.h"
+#include "fcl_stpbv/adapter/fcl_distance.h"
 #include "test/reference/shapes.h"
 
 using namespace fcl_stpbv;

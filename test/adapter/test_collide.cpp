@@ -10,7 +10,7 @@
 #include <tuple>
 
 #include "fcl_stpbv/adapter/collide.h"
-#include "fcl_stpbv/adapter/distance_callback.h"
+#include "fcl_stpbv/adapter/fcl_distance.h"
 #include "fcl_stpbv/adapter/fcl_shapes.h"
 #include "fcl_stpbv/adapter/hull_geometry.h"
 #include "test/adapter/element_kinds.h"

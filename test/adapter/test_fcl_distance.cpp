@@ -11,7 +11,6 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "fcl_stpbv/adapter/distance_callback.h"
 #include "fcl_stpbv/adapter/fcl_distance.h"
 #include "fcl_stpbv/adapter/fcl_shapes.h"
 #include "fcl_stpbv/convex/relative_pose.h"

@@ -14,7 +14,6 @@
 
 #include "fcl_stpbv/adapter/collide.h"
 #include "fcl_stpbv/adapter/continuous_collide.h"
-#include "fcl_stpbv/adapter/distance_callback.h"
 #include "fcl_stpbv/adapter/fcl_distance.h"
 #include "test/reference/fcl_bodies.h"
 #include "test/reference/trials.h"

@@ -15,7 +15,6 @@
 #include <thread>
 #include <vector>
 
-#include "fcl_stpbv/adapter/distance_callback.h"
 #include "fcl_stpbv/adapter/fcl_distance.h"
 #include "fcl_stpbv/adapter/hull_geometry.h"
 #include "fcl_stpbv/error.h"

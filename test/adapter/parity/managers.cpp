@@ -13,7 +13,7 @@
 #include <stdexcept>
 
 #include "fcl_stpbv/adapter/collide.h"
-#include "fcl_stpbv/adapter/distance_callback.h"
+#include "fcl_stpbv/adapter/fcl_distance.h"
 #include "test/adapter/parity/questions.h"
 
 namespace fcl_stpbv::parity {
