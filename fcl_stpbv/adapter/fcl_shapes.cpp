@@ -1,4 +1,5 @@
-// FCL's simple geometries as this library's shapes: one case for each type, sizes and axes translated.
+// FCL's simple geometries as this library's shapes: one case for each type, sizes and axes translated. And a
+// convex hull in the format of fcl::Convexd: a list of vertices, and faces as [n, i0, i1, ...].
 #include "fcl_stpbv/adapter/fcl_shapes.h"
 
 #include <fcl/geometry/shape/box.h>
@@ -11,6 +12,8 @@
 #include <fcl/geometry/shape/plane.h>
 #include <fcl/geometry/shape/sphere.h>
 #include <fcl/geometry/shape/triangle_p.h>
+
+#include "fcl_stpbv/numbers.h"
 
 namespace fcl_stpbv::detail {
 
@@ -64,6 +67,31 @@ bool shapeOf(const fcl::CollisionGeometryd& geometry, Shape& shape) {
     default:
       return false;
   }
+}
+
+std::shared_ptr<const std::vector<fcl::Vector3d>> fclVertices(const HullGraph& hull,
+                                                              const std::vector<Eigen::Vector3d>& cloud) {
+  auto vertices = std::make_shared<std::vector<fcl::Vector3d>>();
+  for (int v = 0; v < hull.vertexCount(); ++v) vertices->push_back(cloud[at(hull.cloudIndex(v))]);
+  return vertices;
+}
+
+std::shared_ptr<const std::vector<int>> fclFaces(const HullGraph& hull) {
+  auto faces = std::make_shared<std::vector<int>>();
+  for (const HullGraph::Ring& ring : hull.faces()) {
+    faces->push_back(static_cast<int>(ring.size()));
+    faces->insert(faces->end(), ring.begin(), ring.end());
+  }
+  return faces;
+}
+
+std::shared_ptr<fcl::Convexd> hullGeometry(const std::vector<Eigen::Vector3d>& cloud) {
+  const HullGraph hull(cloud);
+  // FCL's check of the mesh would throw on degenerate hulls.
+  auto geometry = std::make_shared<fcl::Convexd>(fclVertices(hull, cloud), hull.faceCount(), fclFaces(hull),
+                                                 /*throw_if_invalid=*/false);
+  geometry->computeLocalAABB();
+  return geometry;
 }
 
 }  // namespace fcl_stpbv::detail

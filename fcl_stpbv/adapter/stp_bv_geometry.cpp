@@ -6,7 +6,7 @@
 #include <map>
 #include <typeinfo>
 
-#include "fcl_stpbv/adapter/hull_geometry.h"
+#include "fcl_stpbv/adapter/fcl_shapes.h"
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/numbers.h"
 

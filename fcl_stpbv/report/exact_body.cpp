@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "fcl_stpbv/adapter/hull_geometry.h"
+#include "fcl_stpbv/adapter/fcl_shapes.h"
 #include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/robot/keyed_mesh.h"
 #include "fcl_stpbv/robot/triangle_tree.h"

@@ -9,7 +9,7 @@
 #include <set>
 
 #include "fcl_stpbv/adapter/fcl_distance.h"
-#include "fcl_stpbv/adapter/hull_geometry.h"
+#include "fcl_stpbv/adapter/fcl_shapes.h"
 #include "fcl_stpbv/io/text_scanner.h"
 #include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/report/digest.h"

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "fcl_stpbv/adapter/fcl_distance.h"
-#include "fcl_stpbv/adapter/hull_geometry.h"
+#include "fcl_stpbv/adapter/fcl_shapes.h"
 
 namespace fcl_stpbv::detail {
 

@@ -14,7 +14,7 @@
 #include <set>
 #include <tuple>
 
-#include "fcl_stpbv/adapter/hull_geometry.h"
+#include "fcl_stpbv/adapter/fcl_shapes.h"
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/formatted.h"
 #include "fcl_stpbv/number_check.h"

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <set>
 
-#include "fcl_stpbv/adapter/hull_geometry.h"
+#include "fcl_stpbv/adapter/fcl_shapes.h"
 #include "fcl_stpbv/convex/hull_graph.h"
 #include "fcl_stpbv/distance/distance.h"
 #include "fcl_stpbv/error.h"

@@ -12,7 +12,6 @@
 #include "fcl_stpbv/adapter/collide.h"
 #include "fcl_stpbv/adapter/fcl_distance.h"
 #include "fcl_stpbv/adapter/fcl_shapes.h"
-#include "fcl_stpbv/adapter/hull_geometry.h"
 #include "test/adapter/element_kinds.h"
 #include "test/reference/reference.h"
 

@@ -15,7 +15,6 @@
 
 #include "fcl_stpbv/adapter/fcl_distance.h"
 #include "fcl_stpbv/adapter/fcl_shapes.h"
-#include "fcl_stpbv/adapter/hull_geometry.h"
 #include "fcl_stpbv/convex/relative_pose.h"
 #include "fcl_stpbv/distance/distance.h"
 #include "test/reference/shapes.h"

@@ -20,7 +20,6 @@
 
 #include "fcl_stpbv/adapter/fcl_distance.h"
 #include "fcl_stpbv/adapter/fcl_shapes.h"
-#include "fcl_stpbv/adapter/hull_geometry.h"
 #include "fcl_stpbv/distance/distance.h"
 #include "fcl_stpbv/distance/threshold.h"
 #include "test/reference/fcl_bodies.h"

@@ -11,7 +11,7 @@
 #include <limits>
 #include <memory>
 
-#include "fcl_stpbv/adapter/hull_geometry.h"
+#include "fcl_stpbv/adapter/fcl_shapes.h"
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/robot/collision_checker.h"
 #include "fcl_stpbv/robot/constraints.h"

@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "fcl_stpbv/adapter/fcl_distance.h"
-#include "fcl_stpbv/adapter/hull_geometry.h"
+#include "fcl_stpbv/adapter/fcl_shapes.h"
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/robot/batch.h"
 #include "fcl_stpbv/robot/share_out.h"

@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "fcl_stpbv/adapter/fcl_distance.h"
-#include "fcl_stpbv/adapter/hull_geometry.h"
+#include "fcl_stpbv/adapter/fcl_shapes.h"
 #include "test/reference/arguments.h"
 #include "test/reference/shapes.h"
 

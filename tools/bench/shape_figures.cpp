@@ -19,7 +19,7 @@
 
 #include "fcl_stpbv/adapter/collide.h"
 #include "fcl_stpbv/adapter/fcl_distance.h"
-#include "fcl_stpbv/adapter/hull_geometry.h"
+#include "fcl_stpbv/adapter/fcl_shapes.h"
 #include "test/reference/motion.h"
 #include "test/reference/shapes.h"
 #include "tools/bench/measurement.h"

@@ -14,7 +14,7 @@
 #include <cmath>
 #include <limits>
 
-#include "fcl_stpbv/adapter/hull_geometry.h"
+#include "fcl_stpbv/adapter/fcl_shapes.h"
 #include "test/adapter/element_kinds.h"
 
 namespace fcl_stpbv::parity {

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <random>
 
-#include "fcl_stpbv/adapter/hull_geometry.h"
+#include "fcl_stpbv/adapter/fcl_shapes.h"
 #include "fcl_stpbv/error.h"
 #include "test/reference/source_folder.h"
 
