@@ -12,10 +12,8 @@
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/io/volume_files.h"
 #include "fcl_stpbv/volume/measure.h"
-#include "fcl_stpbv/volume/reduce.h"
 #include "fcl_stpbv/volume/stp_bv.h"
 #include "fcl_stpbv/volume/tessellate.h"
-#include "fcl_stpbv/volume/verify.h"
 
 /// Exact signed distances with continuous gradients, between STP-BVs and from STP-BVs to FCL's geometries.
 /// The robot component handles whole robots. Names in `fcl_stpbv::detail` are internal and may change at any

@@ -17,7 +17,6 @@
 #include "fcl_stpbv/volume/radii_advice.h"
 #include "fcl_stpbv/volume/stp_bv.h"
 #include "fcl_stpbv/volume/tessellate.h"
-#include "fcl_stpbv/volume/verify.h"
 #include "made.h"
 #include "parts.h"
 #include "words.h"

@@ -21,8 +21,8 @@
 #include "fcl_stpbv/robot/mesh_file.h"
 #include "fcl_stpbv/robot/mesh_write.h"
 #include "fcl_stpbv/text_cells.h"
+#include "fcl_stpbv/volume/measure.h"
 #include "fcl_stpbv/volume/tessellate.h"
-#include "fcl_stpbv/volume/verify.h"
 
 namespace fcl_stpbv::tools {
 namespace {

@@ -13,8 +13,8 @@
 #include "fcl_stpbv/io/volume_files.h"
 #include "fcl_stpbv/robot/mesh_write.h"
 #include "fcl_stpbv/text_cells.h"
+#include "fcl_stpbv/volume/measure.h"
 #include "fcl_stpbv/volume/tessellate.h"
-#include "fcl_stpbv/volume/verify.h"
 #include "tools/output_plan.h"
 
 namespace fcl_stpbv::tools {

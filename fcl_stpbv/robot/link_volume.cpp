@@ -16,7 +16,7 @@
 #include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/robot/bounding_ball.h"
 #include "fcl_stpbv/volume/covered_hull.h"
-#include "fcl_stpbv/volume/reduce.h"
+#include "fcl_stpbv/volume/stp_bv.h"
 
 namespace fcl_stpbv::detail {
 namespace {

@@ -3,6 +3,8 @@
 //    quadrature.
 // 2. Signed distance of a point: for each patch, the normal from the patch's farthest centre to the point.
 //    The result is the largest value over the patches whose region contains that normal.
+// 3. The difference of two volumes that should be equal: of their support functions, over normals of both
+//    volumes, and of their vertices.
 #include "fcl_stpbv/volume/measure.h"
 
 #include <Eigen/Geometry>
@@ -12,8 +14,8 @@
 
 #include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/volume/patch_view.h"
+#include "fcl_stpbv/volume/point_tree.h"
 #include "fcl_stpbv/volume/regions.h"
-#include "fcl_stpbv/volume/verify.h"
 
 namespace fcl_stpbv {
 namespace {
@@ -177,5 +179,32 @@ double signedDistance(const StpBv& volume, const Vector3d& point) {
 }
 
 bool contains(const StpBv& volume, const Vector3d& point) { return signedDistance(volume, point) <= 0; }
+
+double surfaceDifference(const StpBv& a, const StpBv& b) {
+  double worst = 0;
+  const auto compare = [&](const Vector3d& n) {
+    worst = std::max(worst, std::abs(a.support(n) - b.support(n)));
+  };
+  for (const StpBv* volume : {&a, &b})
+    for (int face = 0; face < volume->faceCount(); ++face)
+      for (const int vertex : volume->faces()[at(face)]) compare(volume->corner(face, vertex));
+  constexpr int kMore = 1000;  // directions on a spiral, for bodies with few faces
+  constexpr double kGoldenAngle = 2.399963229728653;
+  for (int i = 0; i < kMore; ++i) {
+    const double z = 1 - (2 * i + 1) / static_cast<double>(kMore), across = std::sqrt(1 - z * z);
+    compare(
+        Vector3d(across * std::cos(kGoldenAngle * i), across * std::sin(kGoldenAngle * i), z).normalized());
+  }
+  return worst;
+}
+
+int withoutPartner(const StpBv& a, const StpBv& b, double radius) {
+  const PointTree tree(b.vertices());
+  std::vector<int> near;
+  return static_cast<int>(std::count_if(a.vertices().begin(), a.vertices().end(), [&](const Vector3d& v) {
+    tree.within(v, radius, &near, 1);
+    return near.empty();
+  }));
+}
 
 }  // namespace fcl_stpbv

@@ -3,8 +3,6 @@
 // 2. else add the points that stick out most as vertices, a sixteenth more at a time. Enlarge r by what still
 //    sticks out. Repeat until the limit is kept;
 // 3. then remove each vertex that is not needed within the limit.
-#include "fcl_stpbv/volume/reduce.h"
-
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <numeric>
@@ -15,6 +13,7 @@
 #include "fcl_stpbv/volume/measure.h"
 #include "fcl_stpbv/volume/minimum_ball.h"
 #include "fcl_stpbv/volume/rolling_ball.h"
+#include "fcl_stpbv/volume/stp_bv.h"
 
 namespace fcl_stpbv {
 namespace {

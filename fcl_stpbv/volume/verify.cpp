@@ -3,8 +3,6 @@
 //    balls, by Blaschke's theorem), and no given point is above the surface;
 // 2. the solid angles of all regions, by Gauss-Bonnet, sum to 4 pi;
 // 3. patches meet along their boundaries to rounding.
-#include "fcl_stpbv/volume/verify.h"
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>

@@ -12,7 +12,6 @@
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/formatted.h"
 #include "fcl_stpbv/volume/measure.h"
-#include "fcl_stpbv/volume/verify.h"
 #include "test/reference/ball_hull_check.h"
 
 namespace fcl_stpbv::fuzz {

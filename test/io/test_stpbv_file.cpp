@@ -6,7 +6,7 @@
 #include <sstream>
 
 #include "fcl_stpbv/io/volume_files.h"
-#include "fcl_stpbv/volume/verify.h"
+#include "fcl_stpbv/volume/measure.h"
 #include "test/reference/shapes.h"
 #include "test/reference/volume_files.h"
 

@@ -6,7 +6,7 @@
 #include "fcl_stpbv/io/volume_files.h"
 #include "fcl_stpbv/robot/constraints.h"
 #include "fcl_stpbv/robot/mesh_file.h"
-#include "fcl_stpbv/volume/verify.h"
+#include "fcl_stpbv/volume/measure.h"
 #include "test/reference/robots.h"
 #include "test/reference/volume_files.h"
 #include "test/robot/mesh_reads.h"

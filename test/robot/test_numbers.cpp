@@ -11,7 +11,7 @@
 #include "fcl_stpbv/robot/pair_list.h"
 #include "fcl_stpbv/robot/velocity_damper.h"
 #include "fcl_stpbv/volume/measure.h"
-#include "fcl_stpbv/volume/reduce.h"
+#include "fcl_stpbv/volume/stp_bv.h"
 #include "fcl_stpbv/volume/tessellate.h"
 #include "test/reference/robots.h"
 #include "test/reference/shapes.h"

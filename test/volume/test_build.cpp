@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "fcl_stpbv/volume/measure.h"
 #include "fcl_stpbv/volume/stp_bv.h"
-#include "fcl_stpbv/volume/verify.h"
 #include "test/reference/brute_support.h"
 #include "test/reference/shapes.h"
 

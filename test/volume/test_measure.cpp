@@ -11,7 +11,6 @@
 #include "fcl_stpbv/volume/stp_bv.h"
 #include "fcl_stpbv/volume/surface_height.h"
 #include "fcl_stpbv/volume/tessellate.h"
-#include "fcl_stpbv/volume/verify.h"
 #include "test/reference/shapes.h"
 #include "test/reference/trials.h"
 

@@ -6,13 +6,13 @@
 
 #include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/volume/ball_quickhull.h"
+#include "fcl_stpbv/volume/measure.h"
 #include "fcl_stpbv/volume/minimum_ball.h"
 #include "fcl_stpbv/volume/outer_points.h"
 #include "fcl_stpbv/volume/quick_ball.h"
 #include "fcl_stpbv/volume/rolling_ball.h"
 #include "fcl_stpbv/volume/space_order.h"
 #include "fcl_stpbv/volume/surface_check.h"
-#include "fcl_stpbv/volume/verify.h"
 #include "test/reference/shapes.h"
 #include "test/reference/trials.h"
 

@@ -5,8 +5,7 @@
 #include <cmath>
 
 #include "fcl_stpbv/volume/measure.h"
-#include "fcl_stpbv/volume/reduce.h"
-#include "fcl_stpbv/volume/verify.h"
+#include "fcl_stpbv/volume/stp_bv.h"
 #include "test/reference/shapes.h"
 
 using namespace fcl_stpbv;

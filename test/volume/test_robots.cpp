@@ -3,8 +3,8 @@
 #include <filesystem>
 
 #include "fcl_stpbv/io/volume_files.h"
+#include "fcl_stpbv/volume/measure.h"
 #include "fcl_stpbv/volume/stp_bv.h"
-#include "fcl_stpbv/volume/verify.h"
 #include "test/reference/source_folder.h"
 
 using namespace fcl_stpbv;

@@ -6,7 +6,7 @@
 
 #include "fcl_stpbv/distance/hessian.h"
 #include "fcl_stpbv/volume/measure.h"
-#include "fcl_stpbv/volume/reduce.h"
+#include "fcl_stpbv/volume/stp_bv.h"
 #include "tools/bench/speed_accuracy.h"
 #include "tools/bench/timing.h"
 
