@@ -2,7 +2,7 @@
 // 1. take the connected pieces (mesh_solid.h) and make them coarser for the search;
 // 2. search for few parts (part_search.h), by cutting and joining;
 // 3. cut the whole mesh again by the same planes;
-// 4. make sure that the inside is covered too. Parts made of joined facets grow until it is (fill_inside.h).
+// 4. make sure that the inside is covered too. Parts made of joined facets grow until it is (fill_inside.cpp).
 //    For parts made by cuts it is proven (inside_proof.h), and a part gets those corners of its cells that
 //    the proof needs. If these corners increase the excess, two more methods are tried: parts that grow, and
 //    a search with all corners in the parts from the start. The best result is used;
@@ -17,12 +17,9 @@
 
 #include "fcl_stpbv/number_check.h"
 #include "fcl_stpbv/numbers.h"
-#include "fcl_stpbv/parts/cut_planes.h"
-#include "fcl_stpbv/parts/facet_parts.h"
-#include "fcl_stpbv/parts/fill_inside.h"
 #include "fcl_stpbv/parts/inside_proof.h"
+#include "fcl_stpbv/parts/part_cuts.h"
 #include "fcl_stpbv/parts/part_search.h"
-#include "fcl_stpbv/parts/search_mesh.h"
 #include "fcl_stpbv/volume/rolling_ball.h"
 
 namespace fcl_stpbv {

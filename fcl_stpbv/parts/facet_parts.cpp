@@ -6,8 +6,6 @@
 //    the bound, the one whose hull has the smallest surface;
 // 3. repeat until no join is within the bound and few enough parts are left. The last joins may not be the
 //    best ones. So the sets of parts before them, with a few more parts, are results too.
-#include "fcl_stpbv/parts/facet_parts.h"
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <iterator>
@@ -18,6 +16,7 @@
 #include <utility>
 
 #include "fcl_stpbv/numbers.h"
+#include "fcl_stpbv/parts/part_search.h"
 
 namespace fcl_stpbv::detail {
 namespace {

@@ -2,8 +2,6 @@
 // with the largest piece, each is added to the part whose excess stays smallest with it, or becomes a new
 // part. A part that has grown may cover other pieces too, so the uncovered pieces are computed again after a
 // few steps.
-#include "fcl_stpbv/parts/fill_inside.h"
-
 #include <algorithm>
 #include <memory>
 #include <utility>
@@ -11,6 +9,7 @@
 
 #include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/parts/inside_proof.h"
+#include "fcl_stpbv/parts/part_search.h"
 
 namespace fcl_stpbv::detail {
 namespace {

@@ -1,17 +1,19 @@
 // Connected pieces of a mesh, and which of them enclose a space:
 // 1. weld vertices with equal coordinates;
-// 2. merge triangles with the same corners, into one or into a sheet without an inside (mesh_copies.h);
+// 2. merge triangles with the same corners, into one or into a sheet without an inside: faces that were
+//    written twice or from both sides, and walls between bodies;
 // 3. orient triangles like their neighbours, across edges with exactly two triangles;
 // 4. a piece is closed if every edge is traversed equally often in both directions, and it does not consist
 //    of sheets only.
 #include <algorithm>
+#include <array>
+#include <cstddef>
 #include <numeric>
 #include <tuple>
 #include <utility>
 
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/numbers.h"
-#include "fcl_stpbv/parts/mesh_copies.h"
 #include "fcl_stpbv/parts/mesh_edges.h"
 #include "fcl_stpbv/parts/mesh_solid.h"
 
@@ -33,6 +35,75 @@ std::vector<int> weld(const std::vector<Eigen::Vector3d>& points, std::vector<Ei
   return number;
 }
 
+using Corners = std::array<int, 3>;
+
+// Leaves one triangle of each set of copies, in their order. @returns for each of these whether it had
+// copies.
+std::vector<char> takeFirsts(std::vector<Corners>& triangles) {
+  std::vector<Corners> sorted = triangles;
+  for (Corners& t : sorted) std::sort(t.begin(), t.end());
+  std::vector<std::size_t> order(triangles.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return sorted[a] < sorted[b]; });
+  std::vector<char> isFirst(triangles.size(), 1), hasCopies(triangles.size(), 0);
+  for (std::size_t i = 1, first = 0; i < order.size(); ++i) {
+    if (sorted[order[i]] != sorted[order[first]]) {
+      first = i;
+    } else {
+      isFirst[order[i]] = 0;
+      hasCopies[order[first]] = 1;
+    }
+  }
+  std::size_t kept = 0;
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    if (!isFirst[t]) continue;
+    triangles[kept] = triangles[t];
+    hasCopies[kept++] = hasCopies[t];
+  }
+  triangles.resize(kept);
+  hasCopies.resize(kept);
+  return hasCopies;
+}
+
+// Merges triangles with the same three corners, in any orientation. If an edge then has an odd number of
+// triangles, as along a fin or around a wall between two bodies, the merged triangles are a sheet: two of
+// them stay, with opposite orientations, which enclose nothing. Returns for each triangle whether it belongs
+// to a sheet. Vertices with equal coordinates must have been merged before. Steps:
+// 1. Sort the triangles by their corners to find the copies; keep the first of each.
+// 2. Collect copies that are connected by edges of exactly two triangles: a region.
+// 3. If every edge of a region has an even number of triangles, the region is a part of a surface and stays
+//    as it is. Otherwise it is a sheet, and each triangle gets a second one with the opposite orientation.
+std::vector<char> joinCopies(std::vector<Corners>& triangles) {
+  std::vector<char> hasCopies = takeFirsts(triangles), sheet(triangles.size(), 0);
+  if (std::find(hasCopies.begin(), hasCopies.end(), char{1}) == hasCopies.end()) return sheet;
+  const MeshEdges edges(triangles);
+  const std::size_t count = triangles.size();
+  for (std::size_t start = 0; start < count; ++start) {
+    if (!hasCopies[start]) continue;
+    std::vector<std::size_t> region{start};
+    hasCopies[start] = 0;
+    bool even = true;
+    for (std::size_t i = 0; i < region.size(); ++i) {
+      for (const std::size_t e : edges.of(region[i])) {
+        const std::size_t first = edges.startOfRun(e), last = edges.endOfRun(e);
+        even = even && (last - first) % 2 == 0;
+        if (last - first != 2) continue;
+        const std::size_t other = at(edges[first == e ? first + 1 : first].triangle);
+        if (std::exchange(hasCopies[other], char{0})) region.push_back(other);
+      }
+    }
+    if (even) continue;
+    for (const std::size_t t : region) {
+      const auto [a, b, c] = triangles[t];
+      triangles.push_back({a, c, b});
+      sheet[t] = 1;
+      sheet.push_back(1);
+    }
+  }
+  return sheet;
+}
+
 class Taker {
  public:
   explicit Taker(const TriangleMesh& mesh) {
@@ -42,8 +113,8 @@ class Taker {
         throw Error("the mesh has a coordinate that is not a finite number; export it again");
     const std::vector<int> number = weld(mesh.vertices, out_.vertices);
     std::vector<char> used(out_.vertices.size(), 0);
-    for (const std::array<int, 3>& triangle : mesh.triangles) {
-      std::array<int, 3> corners{};
+    for (const Corners& triangle : mesh.triangles) {
+      Corners corners{};
       for (std::size_t k = 0; k < 3; ++k) {
         if (triangle[k] < 0 || at(triangle[k]) >= number.size())
           throw Error("the mesh has a triangle of a vertex that does not exist; export it again");
@@ -68,7 +139,7 @@ class Taker {
   }
 
  private:
-  static bool isLine(const std::array<int, 3>& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; }
+  static bool isLine(const Corners& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; }
 
   // Finds for each edge the other one, if exactly two triangles share it. Sheets do not count.
   void findPartners() {
@@ -155,7 +226,7 @@ class Taker {
   // piece of its own, and so does a point that no triangle uses. A point counts as closed, because it has no
   // inside.
   void addLines() {
-    for (const std::array<int, 3>& line : lines_) {
+    for (const Corners& line : lines_) {
       const auto [low, high] = std::minmax_element(line.begin(), line.end());
       if (edges_.has(*low, *high)) continue;
       out_.triangles.push_back(line);
@@ -165,7 +236,7 @@ class Taker {
   }
 
   MeshPieces out_;
-  std::vector<std::array<int, 3>> lines_;
+  std::vector<Corners> lines_;
   std::vector<char> sheet_;  // for each triangle
   MeshEdges edges_;
   std::vector<int> partner_;  // partner of each edge, or -1

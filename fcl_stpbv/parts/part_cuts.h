@@ -1,4 +1,4 @@
-// The best ways to cut a part in two.
+// Candidate planes for cutting a part, and the best ways to cut it in two.
 #pragma once
 
 #include <map>
@@ -7,6 +7,14 @@
 #include "fcl_stpbv/parts/part.h"
 
 namespace fcl_stpbv::detail {
+
+/// The planes of the mesh's flat parts. `facetOf` receives for each triangle the index of its flat part.
+std::vector<CutPlane> flatParts(const MeshSolid& mesh, double slack, std::vector<int>& facetOf);
+
+/// The planes are perpendicular to the coordinate axes and the part's principal axes, in even steps; through
+/// the point that is farthest from the mesh; and along the largest flat parts of the mesh, which often are
+/// the faces that make a designed body concave.
+std::vector<CutPlane> cutPlanes(const Part& part, const PartSpace& space);
 
 /// The excess of a part, as far as it is known (m).
 inline double excessOf(const PartPtr& part) { return part->excess.lower; }

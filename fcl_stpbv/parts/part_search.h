@@ -1,4 +1,5 @@
-// The search for a few convex parts with small excess over the mesh.
+// The search for a few convex parts with small excess over the mesh: by cuts and joins, and by joining the
+// mesh's facets (flat parts) with their neighbours; and the parts' growth until they cover the inside.
 #pragma once
 
 #include <algorithm>
@@ -70,5 +71,26 @@ class PartSearch {
   std::map<std::pair<const Part*, const Part*>, PartPtr> joins_;
   Parts kept_;  // the parts in joins_, so that addresses stay unique
 };
+
+constexpr std::size_t kSearched = 2500;  ///< largest number of triangles that the search works on
+
+/// The mesh's triangles in groups: one group per piece if `each`, otherwise one group. `facetOf`: index of
+/// each triangle's facet.
+std::vector<TriangleSoup> meshGroups(const MeshSolid& mesh, const std::vector<int>& facetOf, bool each);
+
+/// At most about kSearched triangles that replace those of a group.
+TriangleSoup forSearch(const TriangleSoup& soup, const PartSpace& space);
+
+/// Joins connected facets with neighbours as long as the common hull is within `bound` (m) of the mesh, and
+/// further until `most` parts are left. Returns the sets of parts on the way, each a little coarser than the
+/// one before. Each set contains all triangles. The caller must prove that it also covers the inside of the
+/// mesh. Empty if the mesh has too many facets or loose pieces.
+std::vector<PartSearch::Parts> facetParts(const std::vector<TriangleSoup>& groups, const PartSpace& space,
+                                          int most, double bound);
+
+/// Takes parts whose hulls contain all of the mesh's triangles. Grows them or adds parts, up to `most`, until
+/// they contain the inside of the mesh too. Empty if that would need a part farther from the mesh than
+/// `bound` (m), or too many steps.
+PartSearch::Parts filled(PartSearch::Parts parts, const PartSpace& space, int most, double bound);
 
 }  // namespace fcl_stpbv::detail

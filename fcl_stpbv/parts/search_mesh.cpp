@@ -1,6 +1,4 @@
 // Groups the triangles of a mesh, and replaces many triangles by few.
-#include "fcl_stpbv/parts/search_mesh.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,6 +7,7 @@
 #include <utility>
 
 #include "fcl_stpbv/numbers.h"
+#include "fcl_stpbv/parts/part_search.h"
 
 namespace fcl_stpbv::detail {
 namespace {
