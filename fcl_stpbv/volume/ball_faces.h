@@ -1,5 +1,6 @@
 // Faces of a ball hull. A face is a ring of points on a ball that contains all other points. Functions to
-// order a ring, and to list all faces directly from this definition.
+// order a ring, and to list all faces directly from this definition. And the polygon around points in one
+// plane.
 #pragma once
 
 #include <Eigen/Core>
@@ -34,5 +35,10 @@ constexpr std::size_t kMostByDefinition = 128;
 /// sides of points are decided exactly, so the faces form a closed surface for any cloud. Points within
 /// touchTolerance() of an earlier point are left out.
 std::vector<Ring> facesByDefinition(const std::vector<Eigen::Vector3d>& points, double radius);
+
+/// Corners of the convex polygon around the points, in order round it, as indices into the cloud. Every point
+/// lies on the polygon or inside, to touchTolerance(). Empty if the points are not in one plane to this
+/// tolerance, or if they lie on one line.
+Ring flatOutline(const std::vector<Eigen::Vector3d>& points);
 
 }  // namespace fcl_stpbv::detail

@@ -1,9 +1,8 @@
 // The box around a body's vertices: two edges give its axes, the vertices its extents.
-#include "fcl_stpbv/volume/body_box.h"
-
 #include <Eigen/Geometry>
 
 #include "fcl_stpbv/numbers.h"
+#include "fcl_stpbv/volume/query_tables.h"
 
 namespace fcl_stpbv::detail {
 

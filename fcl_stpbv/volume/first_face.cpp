@@ -1,7 +1,5 @@
 // Finds the first face: moves the ball until a first point stops it, tilts it about this point until it
 // touches a second point, and rolls it over both points until it touches a third.
-#include "fcl_stpbv/volume/first_face.h"
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -10,7 +8,7 @@
 #include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/volume/ball_side.h"
 #include "fcl_stpbv/volume/minimum_ball.h"
-#include "fcl_stpbv/volume/pivot.h"
+#include "fcl_stpbv/volume/rolling_cloud.h"
 
 namespace fcl_stpbv::detail {
 namespace {

@@ -1,12 +1,11 @@
 // The convex polygon around points in a plane. Points within rounding of a side are no corners.
-#include "fcl_stpbv/volume/flat_outline.h"
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 
 #include "fcl_stpbv/numbers.h"
+#include "fcl_stpbv/volume/ball_faces.h"
 #include "fcl_stpbv/volume/convex_polygon.h"
 
 namespace fcl_stpbv::detail {

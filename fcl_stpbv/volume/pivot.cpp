@@ -4,8 +4,6 @@
 // 3. if it is outside the ball, try again with this point; otherwise the ball rests.
 // Sides are decided exactly (ball_side.h). Angles are rounded, but they only decide the order in which points
 // are tried.
-#include "fcl_stpbv/volume/pivot.h"
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -14,6 +12,7 @@
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/volume/ball_side.h"
+#include "fcl_stpbv/volume/rolling_cloud.h"
 
 namespace fcl_stpbv::detail {
 namespace {

@@ -14,9 +14,11 @@
 #include <cstddef>
 #include <vector>
 
-#include "fcl_stpbv/volume/space_order.h"
-
 namespace fcl_stpbv::detail {
+
+/// Indices of the points along Morton's curve through their bounding box. Of several equal points only the
+/// first one is included.
+std::vector<int> spaceOrder(const std::vector<Eigen::Vector3d>& points);
 
 /// `Surface` is made from three points, counter-clockwise seen from outside, and a length (m). Its `valid()`
 /// is false if the points make no surface. Its `side(p, &height)` returns 1 if p is outside, so that p enters

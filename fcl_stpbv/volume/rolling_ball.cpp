@@ -1,10 +1,10 @@
 // Rolls a ball over a cloud (paper, IV.A, Algorithm 1; after Bernardini and others 1999):
-// 1. let the ball touch a first, a second and a third point: the first face (first_face.h);
-// 2. over each open edge pivot the ball to the point it meets next (pivot.h);
+// 1. let the ball touch a first, a second and a third point: the first face (first_face.cpp);
+// 2. over each open edge pivot the ball to the point it meets next (pivot.cpp);
 // 3. stop when no edge is open; join faces on one ball (join_faces.h).
 // Sides are decided by one exact predicate (ball_side.h), so that faces found from different edges agree. If
 // the roll fails because of rounded angles, the faces of a small cloud are found by their definition
-// (ball_faces.h). The convex hull of a cloud in one plane is its outline (flat_outline.h).
+// (ball_faces.h). The convex hull of a cloud in one plane is its outline (flat_outline.cpp).
 #include "fcl_stpbv/volume/rolling_ball.h"
 
 #include <Eigen/Geometry>
@@ -17,17 +17,56 @@
 #include "fcl_stpbv/volume/ball_faces.h"
 #include "fcl_stpbv/volume/ball_quickhull.h"
 #include "fcl_stpbv/volume/ball_side.h"
-#include "fcl_stpbv/volume/first_face.h"
-#include "fcl_stpbv/volume/flat_outline.h"
 #include "fcl_stpbv/volume/join_faces.h"
-#include "fcl_stpbv/volume/open_edges.h"
-#include "fcl_stpbv/volume/pivot.h"
 #include "fcl_stpbv/volume/rolling_cloud.h"
 
 namespace fcl_stpbv::detail {
 namespace {
 
 using Eigen::Vector3d;
+
+/// The half-edges of a growing surface whose other side is not known yet, in one list for each vertex from
+/// which they start. A vertex has few, so that each is found in a few steps.
+class OpenEdges {
+ public:
+  explicit OpenEdges(std::size_t vertices) : first_(vertices, kNone) {}
+
+  /// Adds the half-edge `from` -> `to` at a face's corner.
+  void add(int from, int to, int face, int corner) {
+    int& first = first_[at(from)];
+    edges_.push_back({to, face, corner, first});
+    first = static_cast<int>(edges_.size()) - 1;
+  }
+
+  /// Face of an open half-edge `from` -> `to`; -1 if there is none.
+  int face(int from, int to) const {
+    for (int e = first_[at(from)]; e != kNone; e = edge(e).next)
+      if (edge(e).to == to) return edge(e).face;
+    return kNone;
+  }
+
+  /// Removes the half-edge `from` -> `to` of this face. Returns its corner, or -1 if it is not open.
+  int close(int from, int to, int face) {
+    for (int* link = &first_[at(from)]; *link != kNone; link = &edge(*link).next) {
+      const Edge found = edge(*link);
+      if (found.to != to || found.face != face) continue;
+      *link = found.next;
+      return found.corner;
+    }
+    return kNone;
+  }
+
+ private:
+  static constexpr int kNone = -1;
+  struct Edge {
+    int to, face, corner, next;
+  };
+  Edge& edge(int i) { return edges_[at(i)]; }
+  const Edge& edge(int i) const { return edges_[at(i)]; }
+
+  std::vector<int> first_;
+  std::vector<Edge> edges_;
+};
 
 class Roller {
  public:

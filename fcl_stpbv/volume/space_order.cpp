@@ -1,11 +1,10 @@
 // Morton's order: the bits of the three coordinates interleaved, as one number to sort by.
-#include "fcl_stpbv/volume/space_order.h"
-
 #include <algorithm>
 #include <cstdint>
 #include <utility>
 
 #include "fcl_stpbv/numbers.h"
+#include "fcl_stpbv/volume/quickhull.h"
 
 namespace fcl_stpbv::detail {
 namespace {
