@@ -1,9 +1,11 @@
-// Formats numbers and names as text, with printf's format strings.
+// Formats numbers and names as text, with printf's format strings; lists of names.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdio>
 #include <string>
+#include <vector>
 
 namespace fcl_stpbv::detail {
 
@@ -32,6 +34,13 @@ inline std::string signedFixed(double value, int decimals) {
 /// "1 pair", "2 pairs".
 inline std::string counted(std::size_t count, const std::string& thing) {
   return std::to_string(count) + " " + thing + (count == 1 ? "" : "s");
+}
+
+/// "a, b, c and 3 more": the first `most` of `count` names. `first` must contain at least these names.
+inline std::string listed(const std::vector<std::string>& first, std::size_t count, std::size_t most = 3) {
+  std::string text;
+  for (std::size_t i = 0; i < std::min(most, first.size()); ++i) text += (i > 0 ? ", " : "") + first[i];
+  return text + (count > most ? " and " + std::to_string(count - most) + " more" : "");
 }
 
 }  // namespace fcl_stpbv::detail

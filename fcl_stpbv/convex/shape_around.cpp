@@ -5,11 +5,11 @@
 //    point of the side. A cone contains both, but not their Minkowski sum; so half of each is taken.
 // 3. An ellipsoid: a circle for each of its axes. Along every normal the ellipsoid reaches at least as far
 //    beyond its point as all three circles together (docs/theory.md, 5).
-#include "fcl_stpbv/convex/shape_around.h"
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+
+#include "fcl_stpbv/convex/shape_curvature.h"
 
 namespace fcl_stpbv::detail {
 

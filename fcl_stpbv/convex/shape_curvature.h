@@ -1,10 +1,12 @@
 // The supporting feature of a simple shape along a normal, and how the normal may turn while that feature
-// stays the supporting one.
+// stays the supporting one. And the segments, arcs and discs that the shape contains around one of its
+// points, for the proof of a depth (local_maximum.h).
 #pragma once
 
 #include <Eigen/Core>
 #include <array>
 
+#include "fcl_stpbv/convex/local_maximum.h"
 #include "fcl_stpbv/convex/shape.h"
 
 namespace fcl_stpbv::detail {
@@ -26,5 +28,15 @@ struct NormalCone {
 /// feature is near `m`.
 bool normalCone(const Shape& shape, const Eigen::Vector3d& m, const Eigen::Vector3d& x, double rounding,
                 NormalCone& result);
+
+/// Whether addShape() supports the shape. It does not support triangles and polytopes.
+inline bool hasAround(const Shape& shape) {
+  return shape.kind != ShapeKind::triangle && shape.kind != ShapeKind::polytope;
+}
+
+/// Adds the segments, arcs and discs through the point `y` of the shape's core that are perpendicular to its
+/// outward normal `m` (unit; both in the shape's own frame), turned by `rotation`.
+void addShape(const Shape& shape, const Eigen::Vector3d& y, const Eigen::Vector3d& m,
+              const Eigen::Matrix3d& rotation, LocalMaximum& around);
 
 }  // namespace fcl_stpbv::detail

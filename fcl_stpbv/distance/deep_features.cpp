@@ -12,7 +12,6 @@
 
 #include "fcl_stpbv/convex/local_maximum.h"
 #include "fcl_stpbv/convex/onto_core.h"
-#include "fcl_stpbv/convex/shape_around.h"
 #include "fcl_stpbv/convex/shape_curvature.h"
 #include "fcl_stpbv/distance/patch_pair.h"
 #include "fcl_stpbv/distance/shape_query.h"

@@ -17,7 +17,7 @@
 #include "fcl_stpbv/convex/epa.h"
 #include "fcl_stpbv/convex/meridian.h"
 #include "fcl_stpbv/convex/onto_core.h"
-#include "fcl_stpbv/convex/shape_around.h"
+#include "fcl_stpbv/convex/shape_curvature.h"
 #include "fcl_stpbv/distance/shape_pair.h"
 #include "fcl_stpbv/numbers.h"
 

@@ -2,8 +2,6 @@
 // 2. Writes all files into it, and then flushes them to the disk together.
 // 3. Exchanges the names of the two folders, in one step if the file system can do that, and removes the old
 //    folder.
-#include "fcl_stpbv/io/atomic_folder.h"
-
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -14,6 +12,7 @@
 #include <fstream>
 
 #include "fcl_stpbv/error.h"
+#include "fcl_stpbv/io/atomic_write.h"
 #include "fcl_stpbv/io/signals_held.h"
 #include "fcl_stpbv/io/temporary_name.h"
 

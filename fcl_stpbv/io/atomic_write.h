@@ -1,7 +1,9 @@
-// Writes files atomically: if a write fails or is interrupted, the old file stays unchanged.
+// Writes files, and folders of files, atomically: if a write fails or is interrupted, the old ones stay
+// unchanged.
 #pragma once
 
 #include <iosfwd>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -44,5 +46,18 @@ void writeOutput(const std::string& path, std::string_view content);
 /// Writes `content` into a caller's stream and flushes it, so that errors such as a full disk are detected.
 /// @throws Error naming what the stream is for.
 void writeStream(std::ostream& out, std::string_view content, const std::string& what);
+
+/// The contents of files by name. A name may contain folders, as in "meshes/arm.obj".
+using FolderFiles = std::map<std::string, std::string>;
+
+/// Makes `folder` hold exactly these files. They are written into a new folder beside it, which is then
+/// renamed. The old folder is removed, so the caller must make sure that nothing is lost. The parent folder
+/// must exist. Signals that would end the process are delayed meanwhile.
+/// @throws Error naming the folder and the reason; the old folder is then unchanged.
+void atomicWriteFolder(const std::string& folder, const FolderFiles& files);
+
+/// Tests whether the folder can be created; call it before long work whose result is written there.
+/// @throws Error as atomicWriteFolder() does.
+void requireFolderPlace(const std::string& folder);
 
 }  // namespace fcl_stpbv::detail

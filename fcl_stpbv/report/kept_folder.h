@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "fcl_stpbv/io/atomic_folder.h"
+#include "fcl_stpbv/io/atomic_write.h"
 
 namespace fcl_stpbv::report {
 

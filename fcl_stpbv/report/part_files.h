@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "fcl_stpbv/io/atomic_folder.h"
+#include "fcl_stpbv/io/atomic_write.h"
 #include "fcl_stpbv/report/part_urdf.h"
 #include "fcl_stpbv/report/robot_conversion.h"
 #include "fcl_stpbv/robot/link_geometry.h"

@@ -5,7 +5,6 @@
 #include <numeric>
 
 #include "fcl_stpbv/formatted.h"
-#include "fcl_stpbv/name_list.h"
 #include "fcl_stpbv/report/pair_cause.h"
 #include "fcl_stpbv/report/report_formats.h"
 #include "fcl_stpbv/report/text_table.h"

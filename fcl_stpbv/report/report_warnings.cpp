@@ -8,7 +8,6 @@
 
 #include "fcl_stpbv/adapter/fcl_distance.h"
 #include "fcl_stpbv/formatted.h"
-#include "fcl_stpbv/name_list.h"
 #include "fcl_stpbv/numbers.h"
 
 namespace fcl_stpbv::report {

@@ -4,7 +4,6 @@
 #include <set>
 
 #include "fcl_stpbv/formatted.h"
-#include "fcl_stpbv/name_list.h"
 #include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/robot/adjacency.h"
 

@@ -10,7 +10,7 @@
 #include <string>
 
 #include "fcl_stpbv/error.h"
-#include "fcl_stpbv/io/atomic_folder.h"
+#include "fcl_stpbv/io/atomic_write.h"
 #include "fcl_stpbv/io/temporary_name.h"
 #include "test/reference/volume_files.h"
 
