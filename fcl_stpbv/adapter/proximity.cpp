@@ -123,7 +123,9 @@ bool isFartherThan(double x, const ConvexBody& a, const ConvexBody& b, PairCache
     const ShapeBounds bounds(a, b);
     if (bounds.areFarther(x, known)) return true;
     if (bounds.areWithin(x)) return false;
-  } else if (isFartherByBounds(x, a, b, known)) {
+  } else if (a.volume && b.volume  // the usual case, without a call between
+                 ? isFartherByBounds(x, *a.volume, a.pose, *b.volume, b.pose, known)
+                 : isFartherByBounds(x, a, b, known)) {
     return true;
   }
   if (counts) ++counts->solved;
