@@ -1,6 +1,8 @@
 // Second derivatives, and the velocities of normal and witness points, compared with central differences.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <iterator>
 
 #include "fcl_stpbv/distance/distance.h"
 #include "fcl_stpbv/distance/hessian.h"
@@ -14,11 +16,68 @@ using Eigen::Vector3d;
 namespace {
 
 using Vector12 = Eigen::Matrix<double, 12, 1>;
+constexpr double kStep = 4e-6;  // for a difference of the fourth order
 
-Vector12 gradient(const Distance& d, const Isometry3d& poseA, const Isometry3d& poseB) {
-  Vector12 g;
-  g << d.gradient(0, poseA.translation()), d.gradient(1, poseB.translation());
-  return g;
+/// An answer and its gradient at five steps along one coordinate of the two poses.
+struct Steps {
+  Distance d[5];
+  Vector12 gradient[5];
+
+  template <typename Value>
+  auto central(const Value& value) const {
+    return ((8 * (value(3) - value(1)) - (value(4) - value(0))) / (12 * kStep)).eval();
+  }
+};
+
+/// Second derivatives by central differences.
+struct Differences {
+  DistanceHessian h;
+  bool smooth = true;  ///< `isSmooth(steps)` for all 12 coordinates
+
+  template <typename A, typename B, typename IsSmooth>
+  Differences(const A& a, const Isometry3d& poseA, const B& b, const Isometry3d& poseB,
+              const IsSmooth& isSmooth) {
+    Eigen::Matrix<double, 12, 12> second;
+    for (int k = 0; k < 12; ++k) {
+      Steps at;
+      for (int s = 0; s < 5; ++s) {
+        const double step = (s - 2) * kStep;
+        const Isometry3d pa = k < 6 ? moved(poseA, k, step) : poseA,
+                         pb = k < 6 ? poseB : moved(poseB, k - 6, step);
+        at.d[s] = distance(a, pa, b, pb);
+        at.gradient[s] << at.d[s].gradient(0, pa.translation()), at.d[s].gradient(1, pb.translation());
+      }
+      second.col(k) = at.central([&](int s) { return at.gradient[s]; });
+      h.normal.col(k) = at.central([&](int s) { return at.d[s].normal; });
+      for (std::size_t p = 0; p < 2; ++p)
+        h.point[p].col(k) = at.central([&](int s) { return at.d[s].point[p]; });
+      smooth = smooth && isSmooth(at);
+    }
+    // The gradient is taken in the frames of the moved bodies, whose rotations do not commute. The symmetric
+    // part is the second derivative along the exponential map.
+    h.matrix = 0.5 * (second + second.transpose());
+  }
+
+  /// The largest difference from `other`, as a share of its size.
+  double from(const DistanceHessian& other) const {
+    const auto most = [](const auto& m) { return m.cwiseAbs().maxCoeff(); };
+    return std::max({most(h.matrix - other.matrix), most(h.normal - other.normal),
+                     most(h.point[0] - other.point[0]), most(h.point[1] - other.point[1])}) /
+           (1 + most(other.matrix) + most(other.normal));
+  }
+};
+
+/// The rates are the matrices times the twists, in another order of the same sums.
+template <typename A, typename B>
+void checkRates(const A& a, const Isometry3d& poseA, const B& b, const Isometry3d& poseB, const Distance& d,
+                const DistanceHessian& h, Random& random, double rounding) {
+  BodyTwists twists;
+  for (Eigen::Index k = 0; k < 12; ++k) twists[k] = random.uniform(-1, 1);
+  DistanceRate moves;
+  REQUIRE(rate(a, poseA, b, poseB, d, twists, moves));
+  const double size = 1 + h.normal.norm() + h.point[0].norm() + h.point[1].norm();
+  CHECK((h.normal * twists - moves.normal).norm() < rounding * size);
+  for (std::size_t p = 0; p < 2; ++p) CHECK((h.point[p] * twists - moves.point[p]).norm() < rounding * size);
 }
 
 }  // namespace
@@ -32,7 +91,6 @@ TEST_CASE("The Hessian and the velocities of normal and witness points are what 
                                      StpBv::build({Vector3d(0, 0, -0.2), Vector3d(0.1, 0, 0.2)}, {0.01, R}),
                                      StpBv::build({Vector3d(0.1, 0, 0)}, {0.05, R})};
   Random random(17), motions(18);
-  constexpr double kStep = 4e-6;  // for a difference of the fourth order
   int compared = 0, kinds[3][3] = {};
   double worst = 0;
   for (int i = 0; i < 400; ++i) {
@@ -46,48 +104,17 @@ TEST_CASE("The Hessian and the velocities of normal and witness points are what 
     DistanceHessian h;
     if (!hessian(a, poseA, b, poseB, d, h)) continue;
     CHECK(h.matrix == h.matrix.transpose());
-    // The rates are the matrices times the twists, in another order of the same sums. So they differ by
-    // rounding of levers below 3 m divided by radii of curvature of at least a centimetre, magnified where
+    // Rounding of levers below 3 m divided by radii of curvature of at least a centimetre, magnified where
     // edges cross at a small angle.
-    BodyTwists twists;
-    for (Eigen::Index k = 0; k < 12; ++k) twists[k] = motions.uniform(-1, 1);
-    DistanceRate moves;
-    REQUIRE(rate(a, poseA, b, poseB, d, twists, moves));
-    const double size = 1 + h.normal.norm() + h.point[0].norm() + h.point[1].norm();
-    CHECK((h.normal * twists - moves.normal).norm() < 1e-11 * size);
-    for (std::size_t p = 0; p < 2; ++p) CHECK((h.point[p] * twists - moves.point[p]).norm() < 1e-11 * size);
-
-    Eigen::Matrix<double, 12, 12> second;
-    Eigen::Matrix<double, 3, 12> normal, point[2];
-    bool smooth = true;  // no boundary within the step
-    for (int k = 0; k < 12; ++k) {
-      constexpr double kAt[4] = {-2, -1, 1, 2};
-      Distance side[4];
-      Vector12 g[4];
-      for (int s = 0; s < 4; ++s) {
-        const double step = kAt[s] * kStep;
-        const Isometry3d pa = k < 6 ? moved(poseA, k, step) : poseA,
-                         pb = k < 6 ? poseB : moved(poseB, k - 6, step);
-        side[s] = distance(a, pa, b, pb);
-        g[s] = gradient(side[s], pa, pb);
-        smooth = smooth && side[s].patch == d.patch && (side[s].normal - d.normal).norm() < 1e-1;
-      }
-      const auto central = [&](const auto& value) {
-        return ((8 * (value(2) - value(1)) - (value(3) - value(0))) / (12 * kStep)).eval();
-      };
-      second.col(k) = central([&](int s) { return g[s]; });
-      normal.col(k) = central([&](int s) { return side[s].normal; });
-      for (std::size_t p = 0; p < 2; ++p) point[p].col(k) = central([&](int s) { return side[s].point[p]; });
-    }
-    if (!smooth) continue;
-    // The gradient is taken in the frames of the moved bodies, whose rotations do not commute. The symmetric
-    // part is the second derivative along the exponential map.
-    const Eigen::Matrix<double, 12, 12> symmetric = 0.5 * (second + second.transpose());
-    const double scale = 1 + h.matrix.cwiseAbs().maxCoeff() + h.normal.cwiseAbs().maxCoeff();
-    worst = std::max(worst, (symmetric - h.matrix).cwiseAbs().maxCoeff() / scale);
-    worst = std::max(worst, (normal - h.normal).cwiseAbs().maxCoeff() / scale);
-    for (std::size_t p = 0; p < 2; ++p)
-      worst = std::max(worst, (point[p] - h.point[p]).cwiseAbs().maxCoeff() / scale);
+    checkRates(a, poseA, b, poseB, d, h, motions, 1e-11);
+    const auto noBoundary = [&](const Steps& at) {
+      return std::all_of(std::begin(at.d), std::end(at.d), [&](const Distance& there) {
+        return there.patch == d.patch && (there.normal - d.normal).norm() < 1e-1;
+      });
+    };
+    const Differences central(a, poseA, b, poseB, noBoundary);
+    if (!central.smooth) continue;
+    worst = std::max(worst, central.from(h));
     ++compared;
     ++kinds[static_cast<int>(a.kind(d.patch[0]))][static_cast<int>(b.kind(d.patch[1]))];
   }
@@ -98,7 +125,7 @@ TEST_CASE("The Hessian and the velocities of normal and witness points are what 
 }
 
 TEST_CASE("Two simple shapes: Hessian, normal and witness points move as central differences say") {
-  constexpr double kStep = 4e-6, kKink = 3e-8;
+  constexpr double kKink = 3e-8;
   std::vector<std::string> kinds = boundedShapes();
   kinds.insert(kinds.end(), {"half space", "plane"});
   int compared = 0, boundaries = 0;
@@ -123,51 +150,22 @@ TEST_CASE("Two simple shapes: Hessian, normal and witness points move as central
         DistanceHessian h;
         REQUIRE(hessian(a.shape, poseA, b.shape, poseB, d, h));
         CHECK((h.matrix - h.matrix.transpose()).cwiseAbs().maxCoeff() == 0);
-        BodyTwists twists;
-        for (Eigen::Index k = 0; k < 12; ++k) twists[k] = random.uniform(-1, 1);
-        DistanceRate moves;
-        REQUIRE(rate(a.shape, poseA, b.shape, poseB, d, twists, moves));
-        const double size = 1 + h.normal.norm() + h.point[0].norm() + h.point[1].norm();
-        CHECK((h.normal * twists - moves.normal).norm() < 1e-13 * size);
-        for (std::size_t p = 0; p < 2; ++p)
-          CHECK((h.point[p] * twists - moves.point[p]).norm() < 1e-13 * size);
-
-        Eigen::Matrix<double, 12, 12> second12;
-        Eigen::Matrix<double, 3, 12> normal, point[2];
-        bool smooth = true;  // no other feature within the step
-        for (int k = 0; k < 12; ++k) {
-          Distance side[5];
-          Vector12 g[5];
-          for (int s = 0; s < 5; ++s) {
-            const double step = (s - 2) * kStep;
-            const Isometry3d pa = k < 6 ? moved(poseA, k, step) : poseA,
-                             pb = k < 6 ? poseB : moved(poseB, k - 6, step);
-            side[s] = distance(a.shape, pa, b.shape, pb);
-            g[s] = gradient(side[s], pa, pb);
-          }
-          const auto central = [&](const auto& value) {
-            return ((8 * (value(3) - value(1)) - (value(4) - value(0))) / (12 * kStep)).eval();
-          };
-          second12.col(k) = central([&](int s) { return g[s]; });
-          normal.col(k) = central([&](int s) { return side[s].normal; });
-          for (std::size_t p = 0; p < 2; ++p)
-            point[p].col(k) = central([&](int s) { return side[s].point[p]; });
-          // A kink within the step shows up in the fourth difference. Smooth parts and rounding contribute
-          // 1e-8.
-          const Vector12 kink = (g[4] - 4 * g[3] + 6 * g[2] - 4 * g[1] + g[0]) / kStep;
-          smooth = smooth && kink.norm() <= kKink * (1 + second12.col(k).norm());
-        }
-        if (!smooth) {
+        checkRates(a.shape, poseA, b.shape, poseB, d, h, random, 1e-13);
+        // A kink within the step shows up in the fourth difference. Smooth parts and rounding contribute
+        // 1e-8.
+        const auto noKink = [&](const Steps& at) {
+          const Vector12* g = at.gradient;
+          const Vector12 kink = (g[4] - 4 * g[3] + 6 * g[2] - 4 * g[1] + g[0]) / kStep,
+                         slope = at.central([&](int s) { return g[s]; });
+          return kink.norm() <= kKink * (1 + slope.norm());
+        };
+        const Differences central(a.shape, poseA, b.shape, poseB, noKink);
+        if (!central.smooth) {
           ++boundaries;
           continue;
         }
         ++compared;
-        const double scale = 1 + h.matrix.cwiseAbs().maxCoeff() + h.normal.cwiseAbs().maxCoeff();
-        const Eigen::Matrix<double, 12, 12> symmetric = 0.5 * (second12 + second12.transpose());
-        CHECK((symmetric - h.matrix).cwiseAbs().maxCoeff() < 2 * kKink * scale);
-        CHECK((normal - h.normal).cwiseAbs().maxCoeff() < 2 * kKink * scale);
-        for (std::size_t p = 0; p < 2; ++p)
-          CHECK((point[p] - h.point[p]).cwiseAbs().maxCoeff() < 2 * kKink * scale);
+        CHECK(central.from(h) < 2 * kKink);
       }
     }
   CHECK(compared > 600);
