@@ -143,7 +143,8 @@ def files():
     yield "meshes/carafe.obj", carafe()
     yield "package.xml", ('<?xml version="1.0"?>\n<package format="3">\n  <name>fridge</name>\n  <version>0.1.0</version>\n'
                           "  <description>A fridge to take a can from</description>\n"
-                          '  <maintainer email="developers@fcl-stpbv.invalid">fcl_stpbv developers</maintainer>\n  <license>BSD-2-Clause</license>\n</package>\n')
+                          '  <maintainer email="developers@fcl-stpbv.invalid">fcl_stpbv developers</maintainer>\n'
+                          '  <license>BSD-2-Clause</license>\n</package>\n')
     for name, content in (("pick_can", pick_can()), ("reach", reach()), ("reach_grid", reach_grid())):
         yield f"{name}.json", json.dumps(content, indent=1) + "\n"
 

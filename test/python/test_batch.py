@@ -357,7 +357,8 @@ def test_a_mesh_travels_under_any_name(tmp_path, name):
     from fcl_stpbv.batch import bundle
 
     shutil.copy(HRP2 / "meshes/LARM_LINK0.stl", tmp_path / name)
-    (tmp_path / "one.urdf").write_text(f"""<robot name="one"><link name="a"><collision><geometry><!-- filename=" --><mesh filename="{name.replace('&', '&amp;')}"/>
+    (tmp_path / "one.urdf").write_text(f"""<robot name="one"><link name="a"><collision><geometry>
+        <!-- filename=" --><mesh filename="{name.replace('&', '&amp;')}"/>
         </geometry></collision></link></robot>""")
     with bundle.Unpacked(bundle.robot_files("robot", tmp_path / "one.urdf", [])) as folder:
         (_, path), = fcl_stpbv.mesh_files(folder / "robot/robot.urdf")
@@ -620,7 +621,8 @@ def test_no_output_replaces_an_input_or_another_output(tmp_path):
                             ([*convert, mesh, "-o", tmp_path / "meshes/part.stpbv"], "is the same file as -o"),
                             ([*prove, "-o", out, "--write-srdf", tmp_path / "no/a.srdf"], f"the folder {tmp_path}/no does not exist"),
                             ([*prove, "-o", out, "--write-srdf", tmp_path], "is a folder, a pipe or a device"),
-                            ([*prove, "-o", "-"], "-o -: a run goes on from its files"), ([*prove, "-o", out, "--write-srdf", "-"], "--write-srdf -: a run goes on from its files")]:
+                            ([*prove, "-o", "-"], "-o -: a run goes on from its files"),
+                            ([*prove, "-o", out, "--write-srdf", "-"], "--write-srdf -: a run goes on from its files")]:
         message = batch(*arguments, status=2)
         assert what in message and message.count("\n") == 1, message
     assert before == {path: path.read_bytes() for path in tmp_path.rglob("*") if path.is_file()}

@@ -21,7 +21,8 @@ def wall(tmp_path_factory):
     corners = [(x, y, z) for x in (1.0, 1.1) for y in (-1.0, 1.0) for z in (-1.0, 1.0)]
     (folder / "wall.obj").write_text("".join(f"v {x} {y} {z}\n" for x, y, z in corners) + "f 1 2 4\nf 1 4 3\nf 5 7 8\nf 5 8 6\nf 1 5 6\nf 1 6 2\n"
                                      "f 3 4 8\nf 3 8 7\nf 1 3 7\nf 1 7 5\nf 2 6 8\nf 2 8 4\n")
-    (folder / "wall.urdf").write_text("<robot name='wall'><link name='wall'><collision><geometry><mesh filename='wall.obj'/></geometry></collision></link></robot>")
+    (folder / "wall.urdf").write_text("<robot name='wall'><link name='wall'><collision><geometry><mesh filename='wall.obj'/></geometry>"
+                                      "</collision></link></robot>")
     return folder / "wall.urdf"
 
 
@@ -97,9 +98,11 @@ def test_a_model_for_needs_keeps_the_bodies_that_were_asked_for(wall):
 
 @pytest.mark.parametrize("given, told", [
     ({"r": "fitted"}, '^r: got "fitted", expected a length .* or "auto"'), ({"R": "fitted"}, '^R: got "fitted"'),
-    ({"links": {"HEAD_LINK1": (0.01,)}}, r'^links: "HEAD_LINK1": got 1 numbers, expected \(r, R\)'), ({"links": {"HEAD_LINK1": (2.0, 1.0)}}, "^links: .*R must be larger"),
+    ({"links": {"HEAD_LINK1": (0.01,)}}, r'^links: "HEAD_LINK1": got 1 numbers, expected \(r, R\)'),
+    ({"links": {"HEAD_LINK1": (2.0, 1.0)}}, "^links: .*R must be larger"),
     ({"links": {"HEAD_LINK1": (float("nan"), 1.0)}}, "^links: "), ({"links": {"HEAD_LINK1": (-1.0, 1.0)}}, "r of link 'HEAD_LINK1'"),
-    ({"links": {"nobody": (0.01, 1.0)}}, "a link 'nobody' it does not have"), ({"flat": ["head_link"]}, "a link 'head_link' it does not have; did you mean 'HEAD_LINK0'"),
+    ({"links": {"nobody": (0.01, 1.0)}}, "a link 'nobody' it does not have"),
+    ({"flat": ["head_link"]}, "a link 'head_link' it does not have; did you mean 'HEAD_LINK0'"),
     ({"flat": "obstacles"}, "^flat: there are no obstacles"), ({"flat": ["HEAD_LINK1"], "links": {"HEAD_LINK1": (0.01, 1.0)}}, '^flat: "HEAD_LINK1"'),
     ({"r": 1.0, "R": 0.5}, "R: got 0.5")])
 def test_options_of_bodies_that_make_no_sense_are_refused(given, told):

@@ -531,7 +531,8 @@ def test_a_robot_is_as_fine_as_its_needs_ask_for(hook):
         hulls.model_for([("l", "pst", q, 0.0)])
     with pytest.raises(fcl_stpbv.Error, match=r'needs\[0\]: .*"l" and "post".*no pair'):
         hulls.model_for([("l", hulls.rows[1].split()[-1], q, 0.0)])
-    (hook / "two.urdf").write_text(files[0].read_text().replace("<link name='block'>", "<link name='block'><collision><geometry><sphere radius='0.01'/></geometry></collision>"))
+    (hook / "two.urdf").write_text(files[0].read_text().replace("<link name='block'>",
+                                                                "<link name='block'><collision><geometry><sphere radius='0.01'/></geometry></collision>"))
     two = fcl_stpbv.Robot(hook / "two.urdf", files[1])
     assert two.rows[1] == "l - block#2"
     with pytest.raises(fcl_stpbv.Error, match=r'needs\[0\]: .*"block#2"; that is a body of the link "block", and a need names links'):
@@ -580,7 +581,8 @@ def test_what_loading_warns_of_is_raised_and_kept(hook):
     urdf.write_text(urdf.read_text().replace("</robot>", "<link name='seen'><visual><geometry><sphere radius='1'/></geometry></visual></link>"
                                              "<joint name='j' type='fixed'><parent link='l'/><child link='seen'/></joint></robot>"))
     (hook / "post.urdf").write_text((hook / "post.urdf").read_text().replace("collision>", "visual>"))
-    told = (r"^.*other.srdf.*'nowhere'", "^.*other.srdf.*'other'", r'^.*hook.urdf: 1 link has visual shapes but no collision shape, .*"seen"', "^.*post.urdf: .*visual")
+    told = (r"^.*other.srdf.*'nowhere'", "^.*other.srdf.*'other'", r'^.*hook.urdf: 1 link has visual shapes but no collision shape, .*"seen"',
+            "^.*post.urdf: .*visual")
     loaders: list[tuple[Callable, tuple[int, ...]]] = [
         (lambda: fcl_stpbv.Robot(urdf, hook / "other.srdf", hook / "post.urdf"), (0, 1, 2, 3)),
         (lambda: fcl_stpbv.PostureSearch(urdf, hook / "other.srdf", hook / "post.urdf"), (0, 1, 2, 3)),

@@ -516,7 +516,8 @@ class MeshToStpbv(unittest.TestCase):
         self.assertEqual(self.on_a_terminal(*arguments, kind="dumb"), "")  # such a terminal cannot rewrite a line
 
     def test_a_bar_keeps_to_its_line_and_cuts_no_character(self):
-        names = [letter * 60 + ".txt" for letter in ("\u53f3", "\u0434", "o\u0308")]  # one letter takes two cells, one takes one, one consists of two characters
+        # One letter takes two cells, one takes one, and one consists of two characters.
+        names = [letter * 60 + ".txt" for letter in ("\u53f3", "\u0434", "o\u0308")]
         for name in names:
             write(self.at(name), points_file(CUBE))
         shown = self.on_a_terminal(*(self.at(name) for name in names), "-o", "out", "-j", "1", columns=40)

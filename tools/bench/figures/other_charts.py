@@ -44,7 +44,8 @@ def stability():
         f", \"failures of {len(data['rows'])}\" {len(groups)}) font ',12' scale 0\n"
     for i, (words, colour) in enumerate(palette.VERDICTS):
         x, y = 24 + 258 * (i % 3), height - bottom + 26 + 20 * (i // 3)
-        text += f"set object {i + 1} rectangle from screen {x / 800:.4f},{1 - (y - 6) / height:.4f} to screen {(x + 16) / 800:.4f},{1 - (y + 6) / height:.4f} " \
+        text += f"set object {i + 1} rectangle from screen {x / 800:.4f},{1 - (y - 6) / height:.4f} " \
+                f"to screen {(x + 16) / 800:.4f},{1 - (y + 6) / height:.4f} " \
             f"fc rgb '{colour}' fs solid noborder\nset label {200 + i} '{words}' at screen {(x + 22) / 800:.4f},{1 - y / height:.4f} left font ',12'\n"
     plots = []
     for i, (_, colour) in enumerate(palette.VERDICTS):
@@ -67,7 +68,8 @@ def stability():
 def proof_boxes(height=420):
     data = measured("proof_boxes")
     about, pairs = data["about"], data["about"]["pairs"]
-    small_print = origin(data, [f"{pairs} pairs of {about['robot']} that samples and descents find clear; at most {about['most_boxes_of_levers']:,} boxes by levers "
+    small_print = origin(data, [f"{pairs} pairs of {about['robot']} that samples and descents find clear; "
+                                f"at most {about['most_boxes_of_levers']:,} boxes by levers "
                                 f"and {about['most_boxes_of_planes']:,} by planes."])
     text = single(height, small_print, legend_rows=1) + legend([(palette.SMOOTH, 5, "planes between the links"),
                                                                 (palette.SWEEPS[0], 5, "levers of the joints")], height) + \
@@ -179,15 +181,18 @@ def advice(height=460):
     asked = min(row["at_most"] for row in data["rows"])
     share = lambda row: row["added"] / row["at_most"] if row["as_stated"] else None
     flattest = sorted((row for row in data["rows"] if row["scenario"] == "wall"), key=lambda row: row["R"])[-1:]  # shows why its joints jerk there
-    small_print = [f"Radii advised for a clearance and at most {asked:g} m/s² that the shapes may add; what is held moves at 1 kHz, the obstacle flat (boxes: both round).",
+    small_print = [f"Radii advised for a clearance and at most {asked:g} m/s² that the shapes may add; what is held moves at 1 kHz, "
+                   "the obstacle flat (boxes: both round).",
                    f"Open: so little clearance that the advice says its bound is above {asked:g} m/s². Left: only runs that moved as stated.", data["command"]]
     text = panels(2, height, small_print, legend_rows=1, panel_titles=True) + \
         legend([(colour, 7, scenario) for scenario, colour in scenarios.items()], height, columns=4) + \
         f"set logscale xy\nset xrange [0.35:45]\nset xtics (0.5, 1, 2, 4, 8, 16, 32)\nset xlabel 'clearance given (mm)'\n" \
         f"set label 1 'the bound of the advice' at 45,1.6 right font ',12' tc rgb '{palette.NEUTRAL}'\n"
     for panel, (title, value, axes) in enumerate((
-            ("added by the shapes", share, "set yrange [0.001:3]\nset ytics (0.001, 0.01, 0.1, 1)\nset ylabel 'measured, as a share of the bound' offset 0.5\n"),
-            ("at the joints", lambda row: row["peak"], "set yrange [1:100]\nset ytics (1, 2, 5, 10, 20, 50, 100)\nset ylabel 'peak joint acceleration (rad/s²)'\n"))):
+            ("added by the shapes", share, "set yrange [0.001:3]\nset ytics (0.001, 0.01, 0.1, 1)\n"
+                                           "set ylabel 'measured, as a share of the bound' offset 0.5\n"),
+            ("at the joints", lambda row: row["peak"], "set yrange [1:100]\nset ytics (1, 2, 5, 10, 20, 50, 100)\n"
+                                                       "set ylabel 'peak joint acceleration (rad/s²)'\n"))):
         plots = [] if panel else [f"1 with lines lw 1.5 dt 2 lc rgb '{palette.NEUTRAL}'"]
         for i, (scenario, colour) in enumerate(scenarios.items()):
             points = [(1e3 * row["clearance"], value(row), row["at_most"] > asked) for row in data["rows"] if row["scenario"] == scenario]
@@ -216,12 +221,15 @@ def parts(height=440):
                 of = [row["excess"] for row in rows if (row["method"], row["most"]) == (method, tick["most"])]
                 curves[method].append((tick["most"], mean(of), tick["us_a_tick"]))
     program, robot = data["command"].split()[0], pathlib.Path(data["command"].split()[2]).name
-    small_print = [f"JVRC-1: the mean of its {links} concave links; excess: the most that a hull is from the mesh's solid. A tick: distances and Jacobian of all",
-                   f"pairs of all links' parts, {costs[0]['rows']} to {max(tick['rows'] for tick in costs):,} rows, without what leaves far rows out. Numbers: parts a link at most.",
+    small_print = [f"JVRC-1: the mean of its {links} concave links; excess: the most that a hull is from the mesh's solid. "
+                   "A tick: distances and Jacobian of all",
+                   f"pairs of all links' parts, {costs[0]['rows']} to {max(tick['rows'] for tick in costs):,} rows, without what leaves far rows out. "
+                   "Numbers: parts a link at most.",
                    f"{program} --robot {robot}: {data['machine']}"]
     text = panels(2, height, small_print, legend_rows=1) + \
         legend([palette.PEERS[method] for method in curves], height) + \
-        f"set logscale xy\nset yrange [{0.5 * min(y for curve in curves.values() for _, y, _ in curve):g}:{2 * mean(hulls.values()):g}]\nset ytics (0.5, 1, 2, 5, 10, 20, 50)\n" \
+        f"set logscale xy\nset yrange [{0.5 * min(y for curve in curves.values() for _, y, _ in curve):g}:{2 * mean(hulls.values()):g}]\n" \
+        "set ytics (0.5, 1, 2, 5, 10, 20, 50)\n" \
         "set ylabel 'excess over the mesh (mm), mean'\n"
     for panel, (column, words, axes) in enumerate(((1, "convex parts of a link, at most", "set xrange [0.9:9]\nset xtics (1, 2, 4, 8)\n"),
                                                    (3, "what all pairs cost, µs a tick",
@@ -236,7 +244,8 @@ def parts(height=440):
                 plots.append(f"$parts{i} using 3:2:1 with labels offset {'-1.2,-0.8' if not i else '1.2,0.8'} font ',12' tc rgb '{colour}'")
         text += axes + f"set xlabel '{words}'\nplot " + ", ".join(plots) + "\n" + UNLABEL
     at = {(method, most): y for method, curve in curves.items() for most, y, _ in curve}
-    draw("parts", f"Four parts a link: on average {at['ours', 4]:.2g} mm from the mesh, HACD's {at['HACD', 4]:.2g} mm", text + "unset multiplot\n", small_print, height)
+    draw("parts", f"Four parts a link: on average {at['ours', 4]:.2g} mm from the mesh, HACD's {at['HACD', 4]:.2g} mm", text + "unset multiplot\n",
+         small_print, height)
 
 
 CHARTS = (jump, stability, proof_boxes, radii, parts, control, clearance, advice)

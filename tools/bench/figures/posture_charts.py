@@ -14,7 +14,8 @@ def posture_profile(height=400):
     for row in data["rows"]:
         if row["feasible"]:
             tasks.setdefault(row["seed"], {})[row["distances"]] = row
-    small_print = [f"{len(tasks)} feasible ones of {data['about']['tasks']} random tasks, solved within {data['about']['starts']} starts, free of collisions of the meshes.",
+    small_print = [f"{len(tasks)} feasible ones of {data['about']['tasks']} random tasks, solved within {data['about']['starts']} starts, "
+                   "free of collisions of the meshes.",
                    f"Across: effort as a multiple of the best method's on the same task. Dashed: {dashed}.", f"{data['command']}: {data['machine']}"]
     text = panels(3, height, small_print, legend_rows=1, panel_titles=True, between=52, left=76) + \
         legend([(colour, 5, name) for name, colour in colours.items()], height, columns=4) + \
@@ -33,7 +34,8 @@ def posture_profile(height=400):
             text += block(f"$profile{panel}{i}", curve)
             plots.append(f"$profile{panel}{i} using 1:2 with steps lw 2 {'dt (6,4)' if name == dashed else ''} lc rgb '{colour}'")
         text += spans.get(words, spans["work"]) + f"set title '{words}' offset 0,-0.6\nplot " + ", ".join(plots) + "\n" + UNLABEL + "unset ylabel\n"
-    draw("posture_profile", "Postures: all four solve as many in as many steps, STP-BVs in under half of FCL's time", text + "unset multiplot\n", small_print, height)
+    draw("posture_profile", "Postures: all four solve as many in as many steps, STP-BVs in under half of FCL's time", text + "unset multiplot\n",
+         small_print, height)
 
 
 def success_map(name, scene, where, across, upward, panel, height, tics, around=()):
@@ -68,7 +70,8 @@ def success_map(name, scene, where, across, upward, panel, height, tics, around=
         if around:
             text += block(f"$origin{i}", [(0, 0)])
             plots.append(f"$origin{i} with points pt 1 ps 0.8 lw 2 lc rgb '#222222'")
-        text += f"set title {quoted(panel(at(axes[0], i)))} offset 0,-0.6\nplot " + ", ".join(plots or ["NaN"]) + "\n" + UNLABEL + "unset ylabel\nset format y ''\n"
+        text += f"set title {quoted(panel(at(axes[0], i)))} offset 0,-0.6\nplot " + ", ".join(plots or ["NaN"]) + "\n"
+        text += UNLABEL + "unset ylabel\nset format y ''\n"
     draw(name, title, text + "unset multiplot\n", small_print, height, crisp=True)
 
 

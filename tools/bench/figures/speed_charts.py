@@ -23,8 +23,9 @@ def speed_accuracy(height=440):
     data = measured("solver_error")
     rows = {row["method"]: row for row in data["rows"] if row["steps"] == "large" and default_setting(row)}
     ours, fcl = rows["STP-BV warm"], rows["FCL libccd"]
-    below = origin(data, [f"{data['about']['vertices']} vertices a body, 20° and 2 cm between queries. Up: p5 to p99, mark at the median. Across: median to worst of "
-                          f"{ours['checked']} answers,", "mark at the worst. Polyhedral methods against the polyhedra, with FCL's default tolerance; STP-BV against the STP-BVs."])
+    below = origin(data, [f"{data['about']['vertices']} vertices a body, 20° and 2 cm between queries. Up: p5 to p99, mark at the median. "
+                          f"Across: median to worst of {ours['checked']} answers,",
+                          "mark at the worst. Polyhedral methods against the polyhedra, with FCL's default tolerance; STP-BV against the STP-BVs."])
     floor = 2e-18  # where an error of 0 is drawn
     offset = {"FCL with gap stop": "1.6,0.7", "STP-BV through FCL": "1.6,-0.3", "STP-BV warm": "1.6,-0.3", "Bullet GJK": "-11,0.8"}
     scale = {"FCL with gap stop": 1.9, "STP-BV through FCL": 1.1}  # one lies on the other
@@ -78,7 +79,8 @@ def solver_error(height=450):
     data = measured("solver_error")
     rows = [row for row in data["rows"] if row["steps"] == "large"]
     tolerance = lambda row: float(row["setting"].split()[1])
-    below = origin(data, [f"Geodesic spheres of {data['about']['vertices']} vertices, large steps, {rows[0]['checked']} answers checked, each method against the exact distance of the",
+    below = origin(data, [f"Geodesic spheres of {data['about']['vertices']} vertices, large steps, {rows[0]['checked']} answers checked, "
+                          "each method against the exact distance of the",
                           "bodies it is asked about. A method without a tolerance is a level line, with marks anywhere on it."])
     text = panels(2, height, below, legend_rows=2) + method_legend(rows, height) + \
         "set logscale xy\nset xrange [1e-1:1e-13] reverse\nset xtics ('1e-2' 1e-2, '1e-4' 1e-4, '1e-6' 1e-6, '1e-8' 1e-8, '1e-10' 1e-10, '1e-12' 1e-12)\n" \
@@ -104,8 +106,10 @@ def solver_error(height=450):
                 plots += [] if asked else [f"$marks{panel}{i} using 1:2 with points pt {mark} ps 0.8 lc rgb '{colour}'"]
         together = [level for level in levels if panel == "error" and level < 1e-14]
         if len(together) > 1:
-            text += f'set label 3 "{len(together)} lines on each other,\\n{max(together):.0e} m" at graph 0.03,0.24 left font ",12" tc rgb "{palette.NEUTRAL}"\n'
-        text += "set format y '1e%T'\nset yrange [1e-17:1]\nset ytics 1e-16,1e4,1\nunset mytics\nset ylabel 'worst error of the distance (m)'\n" if panel == "error" else \
+            text += f'set label 3 "{len(together)} lines on each other,\\n{max(together):.0e} m" ' \
+                    f'at graph 0.03,0.24 left font ",12" tc rgb "{palette.NEUTRAL}"\n'
+        text += "set format y '1e%T'\nset yrange [1e-17:1]\nset ytics 1e-16,1e4,1\nunset mytics\n" \
+                "set ylabel 'worst error of the distance (m)'\n" if panel == "error" else \
             f"unset format y\nset yrange [60:1e5]\nset ytics {TIME_TICS}\nset ylabel 'median time of a query' offset 1\n"
         text += "plot " + ", ".join(plots) + "\n" + UNLABEL + "unset label 3\nunset label 4\n"
     worst = max(row["distance_error_max"] / tolerance(row) for row in rows if row["method"] == "FCL libccd")
@@ -123,7 +127,8 @@ def model_error(height=430):
                     {"0.3 m": "-1.5,0.9", "3 m": "-1,-0.9", "100 m": "0.9,0"}),
               "vertices": (palette.SWEEPS[2], f"vertices left by reduce(): {max(left)} to {min(left)}", 2, 0.6,
                            {"16": "-2.6,-0.6", "8": "-2.2,-0.4", "2": "-2.2,-0.4"}, {})}
-    below = origin(data, ["A prism of 64 sides, radius 0.1 m, length 0.4 m, against itself 1 to 50 mm apart. Largest eigenvalue of the Hessian over 6000 poses.",
+    below = origin(data, ["A prism of 64 sides, radius 0.1 m, length 0.4 m, against itself 1 to 50 mm apart. "
+                          "Largest eigenvalue of the Hessian over 6000 poses.",
                           "What is not varied: r = 1 cm, R = 10 m, 128 vertices."])
     text = panels(2, height, below, legend_rows=1) + legend([(colour, 7, name) for colour, name, *_ in sweeps.values()], height) + \
         "set logscale xy\nset xrange [2:150]\nset xtics (2, 5, 10, 20, 50, 100)\nset xlabel 'largest over-cover (mm)'\n"
@@ -199,7 +204,8 @@ def robot(height=470):
             ("Bullet, collision world", palette.OTHER, 9, "Bullet's collision world" + "; d: its GJK, no J" * bullet))
     distances = {"FCL, broadphase": "fcl::distance, no J", "Bullet, collision world": "Bullet GJK, no J"}
     missing = "a batch of all pairs" + ", Bullet's distances" * (not bullet)
-    small_print = origin({**measured("robot"), "command": "robot_bench"}, [f"First hit and all pairs: collisions only; d and J: distances. Medians. Not made: {missing}."])
+    small_print = origin({**measured("robot"), "command": "robot_bench"},
+                         [f"First hit and all pairs: collisions only; d and J: distances. Medians. Not made: {missing}."])
     text = panels(2, height, [*small_print, ""], legend_rows=2, panel_titles=True) + \
         legend([(colour, mark, name) for _, colour, mark, name in ways], height, columns=2) + \
         f"set logscale y\nset ytics {TIME_TICS}\nset yrange [300:2e6]\nset ylabel 'time of a configuration' offset 1\nset xrange [-0.5:{len(asked) - 0.5}]\n" \
@@ -230,7 +236,8 @@ def robot_size(height=490):
                         ("Bullet GJK, no J", palette.OTHER, 9))}
     own, robot = next(row["vertices"] for row in rows if row["varied"] == "pairs"), data["about"]["robot"]
     small_print = origin({**data, "command": "robot_bench --sizes"},
-                         [f"{ROBOTS.get(robot, robot)} in small steps. Left: its own bodies, {own:.0f} vertices on average. Right: ellipsoids in the boxes around them.",
+                         [f"{ROBOTS.get(robot, robot)} in small steps. Left: its own bodies, {own:.0f} vertices on average. "
+                          "Right: ellipsoids in the boxes around them.",
                           "FCL and Bullet: hulls, distances without J."])
     entries = [(palette.SMOOTH, 7, "this library"), (palette.FCL, 7, "FCL: broadphase; fcl::distance"),
                (palette.METHODS["FCL with gap stop"][0], 11, palette.METHODS["FCL with gap stop"][2]), (palette.OTHER, 9, "Bullet: world; GJK"),

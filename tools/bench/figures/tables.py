@@ -90,7 +90,8 @@ def solver_error():
                      "of answers checked", "off by > 1 µm", "no answer"),
                     [(palette.METHODS[row["method"]][2], row["setting"], f"{row['ns_p50']:.0f}", *(f"{row[key]:.1e}" for key in
                       ("distance_error_p99", "distance_error_max", "normal_error_max")), row["checked"], row["off_by_more_than_1e-6"], row["missed"])
-                     for row in rows if row["setting"] not in ("tolerance 1e-04", "tolerance 1e-08", "tolerance 1e-12", "cold") or row["method"].startswith("STP")])
+                     for row in rows
+                     if row["setting"] not in ("tolerance 1e-04", "tolerance 1e-08", "tolerance 1e-12", "cold") or row["method"].startswith("STP")])
 
 
 @table("model_error")
@@ -130,15 +131,18 @@ def adapter_costs():
     ns = lambda row, way: row[f"ns_{way}"]
     return markdown(("", "", "fcl::distance", "witness, cold", "witness, warm", "exact, from the witness", "exact, cold", "exact, warm", "exact, cold / FCL",
                      "exact, warm / FCL", "cold / without FCL"),
-                    [(row["shape"], row["motion"], *(f"{ns(row, way):.0f}" for way in ("fcl", "witness_cold", "witness_warm", "exact_from_witness", "exact_cold", "exact_warm")),
+                    [(row["shape"], row["motion"],
+                      *(f"{ns(row, way):.0f}" for way in ("fcl", "witness_cold", "witness_warm", "exact_from_witness", "exact_cold", "exact_warm")),
                       *(f"{ns(row, way) / ns(row, 'fcl'):.2f}" for way in ("exact_cold", "exact_warm")),
                       f"{ns(row, 'exact_cold') / ns(row, 'core_cold'):.2f}") for row in rows])
 
 
 @table("collide")
 def collide():
-    return markdown(("body", "nearest centres (m)", "collide", "asked", "fcl::collide", "cold", "warm", "cold / FCL", "warm / FCL", "FCL's depth over 1 % too large"),
-                    [(row["body"], f"{row['nearest']:.2f}", f"{row['hits']:.0f} %", row["asked"], *(f"{row[way]:.0f}" for way in ("ns_fcl", "ns_cold", "ns_warm")),
+    return markdown(("body", "nearest centres (m)", "collide", "asked", "fcl::collide", "cold", "warm", "cold / FCL", "warm / FCL",
+                     "FCL's depth over 1 % too large"),
+                    [(row["body"], f"{row['nearest']:.2f}", f"{row['hits']:.0f} %", row["asked"],
+                      *(f"{row[way]:.0f}" for way in ("ns_fcl", "ns_cold", "ns_warm")),
                       *(f"{row[way] / row['ns_fcl']:.2f}" for way in ("ns_cold", "ns_warm")),
                       f"{row['fcl_too_deep']:.0f} %" if "fcl_too_deep" in row else "") for row in measured("collide")["rows"]])
 
@@ -274,7 +278,8 @@ def proofs():
     body = []
     for name in "proof_boxes_panda", "proof_boxes":
         a = measured(name)["about"]
-        body.append((a["robot"], a["pairs"], f"{a['proven_by_levers']} of {a['most_boxes_of_levers']:,} boxes each", f"{a['proven_by_planes']} of {a['most_boxes_of_planes']:,}",
+        body.append((a["robot"], a["pairs"], f"{a['proven_by_levers']} of {a['most_boxes_of_levers']:,} boxes each",
+                     f"{a['proven_by_planes']} of {a['most_boxes_of_planes']:,}",
                      f"{a['hardest_proof']:,}", f"{a['fewer_boxes_median']:.0f} ({a['fewer_boxes_pairs']} pairs)", f"{a['us_a_box']:.0f} µs",
                      a["pairs"] - a["proven_by_planes"]))
     return markdown(("robot", "pairs", "proven by levers, at most", "by planes, at most", "boxes of the hardest proof",
@@ -284,7 +289,8 @@ def proofs():
 @table("posture_grid")
 def posture_grid():
     ways = {"neighbours": "from the neighbours", "independent": "independent"}
-    return markdown(("scene", "starts", "places", "with a posture", "from a neighbour's", "places a second and core", "iterations, median", "distances", "cost"),
+    return markdown(("scene", "starts", "places", "with a posture", "from a neighbour's", "places a second and core", "iterations, median", "distances",
+                     "cost"),
                     [(row["scene"], ways[row["way"]], f"{row['places']:,}", row["found"], row["from_neighbour"] if row["way"] == "neighbours" else "",
                       row["places_per_second"], f"{row['iterations']:.0f}", f"{row['distances']:,.0f}", f"{row['cost']:.2f}")
                      for row in measured("posture_grid")["rows"]])
@@ -292,9 +298,10 @@ def posture_grid():
 
 @table("scale")
 def scale():
-    return markdown(("batch", "jobs", "seconds a job", "one process (s)", "two processes (s)", "efficiency", "of what the machine gives", "bytes a result", "at most"),
-                    [(row["batch"], row["jobs"], row["seconds_a_job"], row["one_process"], row["two_processes"], row["efficiency"], row["of_the_machine"], f"{row['bytes_a_result']:,}",
-                      f"{row['most_bytes']:,}") for row in measured("scale")["rows"]])
+    return markdown(("batch", "jobs", "seconds a job", "one process (s)", "two processes (s)", "efficiency", "of what the machine gives", "bytes a result",
+                     "at most"),
+                    [(row["batch"], row["jobs"], row["seconds_a_job"], row["one_process"], row["two_processes"], row["efficiency"], row["of_the_machine"],
+                      f"{row['bytes_a_result']:,}", f"{row['most_bytes']:,}") for row in measured("scale")["rows"]])
 
 
 @table("scene", "scene_jvrc1")
@@ -327,10 +334,11 @@ def parts():
     """The parts of each link. Of mirrored links, only one is listed."""
     links = {name: rows for name, rows in parts_by_link().items() if not (name.startswith("L_") and "R" + name[1:] in parts_by_link())}
     counts = list(dict.fromkeys(most for rows in links.values() for _, most in rows))
-    cell = lambda rows, most: f"{mm(rows['ours', most]['excess'])} ({rows['ours', most]['parts']}) / {mm(rows['HACD', most]['excess'])} ({rows['HACD', most]['parts']})"
+    cell = lambda rows, most: " / ".join(f"{mm(row['excess'])} ({row['parts']})" for row in (rows["ours", most], rows["HACD", most]))
     first = lambda rows: next(iter(rows.values()))
     return markdown(("link", "triangles", "hull", *(f"{most} parts" for most in counts)),
-                    [(name.removesuffix("_S"), first(rows)["triangles"], mm(first(rows)["hull_excess"]), *(cell(rows, most) for most in counts)) for name, rows in links.items()])
+                    [(name.removesuffix("_S"), first(rows)["triangles"], mm(first(rows)["hull_excess"]), *(cell(rows, most) for most in counts))
+                     for name, rows in links.items()])
 
 
 @table("parts")
@@ -346,7 +354,8 @@ def parts_summary():
                      f"{statistics.median(nearer):.2f}" if nearer else "", *(f"{mm(statistics.mean(one[i]['excess'] for one in pairs))}" for i in (0, 1)),
                      *(f"{tick[method]['rows']:,} / {tick[method]['us_a_tick']:.0f}" for method in ("ours", "HACD")),
                      *(f"{sum(one[i]['seconds'] for one in pairs):.0f}" for i in (0, 1))))
-    return markdown(("parts at most", "nearer", "level", "farther", "share of HACD's excess where nearer, median", "excess, mean (mm)", "HACD's", "rows / µs a tick", "HACD's",
+    return markdown(("parts at most", "nearer", "level", "farther", "share of HACD's excess where nearer, median", "excess, mean (mm)", "HACD's",
+                     "rows / µs a tick", "HACD's",
                      "seconds", "HACD's"), body)
 
 
@@ -373,7 +382,8 @@ def posture_study():
         middle = lambda value: statistics.median(value(results[name], results) for results in by_all)
         body.append((name, f"{100 * sum(row['starts'] == 1 for row in solved) / len(feasible):.1f} %", f"{100 * len(solved) / len(feasible):.1f} %",
                      sum(row["solved"] and not row["clear"] for row in rows if row["distances"] == name),
-                     f"{middle(lambda row, _: row['iterations']):.0f}", f"{middle(lambda row, _: row['calls']):.0f}", f"{middle(lambda row, _: 1e3 * row['seconds']):.1f}",
+                     f"{middle(lambda row, _: row['iterations']):.0f}", f"{middle(lambda row, _: row['calls']):.0f}",
+                     f"{middle(lambda row, _: 1e3 * row['seconds']):.1f}",
                      f"{middle(lambda row, results: 100 * (row['cost'] / best[id(results)] - 1)):.1f} %"))
     return markdown(("distances", "solved at the first start", "within 5", "hits a mesh", "iterations", "distances", "ms", "cost above the best"), body)
 
@@ -442,9 +452,11 @@ def control_acceleration():
 @table("control_advice")
 def control_advice():
     mm = lambda metres: f"{1e3 * metres:.2g}" if metres > 5e-5 else "0.0"
-    return markdown(("scenario, speeds stated", "clearance (mm)", "at most (m/s²)", "r (mm)", "R (m)", "over-cover (mm)", "added (m/s²)", "lost (mm)", "joints' peak (rad/s²)"),
-                    [(f"{SCENARIOS[row['scenario']]}, {row['speed']:.2g} m/s, {row['turning']:.2g} rad/s", f"{1e3 * row['clearance']:g}", three(row["at_most"]), mm(row["r"]), three(row["R"]),
-                      mm(row["over_cover"]), three(row["added"]) if row["as_stated"] else f"{three(row['added'])}, too fast", mm(row["lost"]), three(row["peak"]))
+    return markdown(("scenario, speeds stated", "clearance (mm)", "at most (m/s²)", "r (mm)", "R (m)", "over-cover (mm)", "added (m/s²)", "lost (mm)",
+                     "joints' peak (rad/s²)"),
+                    [(f"{SCENARIOS[row['scenario']]}, {row['speed']:.2g} m/s, {row['turning']:.2g} rad/s", f"{1e3 * row['clearance']:g}", three(row["at_most"]),
+                      mm(row["r"]), three(row["R"]), mm(row["over_cover"]),
+                      three(row["added"]) if row["as_stated"] else f"{three(row['added'])}, too fast", mm(row["lost"]), three(row["peak"]))
                      for row in measured("control_advice")["rows"]])
 
 
@@ -457,11 +469,12 @@ def continuity():
     for solver, words in (("IPOPT, exact Hessian", "IPOPT"), ("IPOPT, exact Hessian, continued", "IPOPT, R continued"), ("SLSQP", "SLSQP")):
         for task in TASKS:
             rows = {row["method"]: row for row in measured(f"optimise_{task}")["rows"] if row["solver"] == solver}
-            cell = lambda model: next((f"{row['solved']:.0f} %, {row['points'] + row['hessians']:.0f}" for name, row in rows.items() if name.startswith(model[0])
-                                       and name.endswith(model[1])), "-")
+            cell = lambda model: next((f"{row['solved']:.0f} %, {row['points'] + row['hessians']:.0f}"
+                                       for name, row in rows.items() if name.startswith(model[0]) and name.endswith(model[1])), "-")
             body.append((f"{words}, {task}", "solved, evaluations", cell(("hull + r", "")), "-", cell(("STP-BV", "R 10 m")), cell(("STP-BV", "R 1 m")), "-"))
     study = measured("posture_study")
     first = lambda source: [row for row in study["rows"] if row["feasible"] and row["distances"] == source]
     share = lambda rows: f"{100 * sum(row['solved'] and row['clear'] for row in rows) / len(rows):.1f} %"
-    body.append(("postures, SLSQP", f"solved within {study['about']['starts']} starts", share(first("hulls, rounded, exact")), "-", share(first("STP-BV")), "-", "-"))
+    body.append(("postures, SLSQP", f"solved within {study['about']['starts']} starts", share(first("hulls, rounded, exact")), "-", share(first("STP-BV")),
+                 "-", "-"))
     return markdown(("task", "measure", "hulls with a margin", "hulls, manifold", "STP-BV, R = 10 m", "STP-BV, R = 1 m", "one flat, R = 1 m"), body)
