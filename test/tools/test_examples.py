@@ -1,5 +1,6 @@
 """The examples of the documentation beside another robot, and with folders that are not there; their pages, and what the demo prints:
 test_examples.py BIN_FOLDER PROJECT"""
+import os
 import pathlib
 import re
 import shutil
@@ -50,6 +51,19 @@ class Examples(unittest.TestCase):
             self.assertEqual(self.run_in(PROJECT / "data/hrp2_style", "controller", folder).returncode, 0)
             text, found = self.check_page(pathlib.Path(folder) / "controller.html")
             self.assertEqual(found.count("rad/s²"), 2)
+            self.assertIn("10 mm, to be kept", text)
+
+    def test_the_page_of_the_controller_in_python(self):
+        module = PROGRAMS.parent / "python"
+        if not (module / "fcl_stpbv").is_dir():
+            self.skipTest("the Python module was not built")
+        with tempfile.TemporaryDirectory() as folder:
+            done = subprocess.run(["/usr/bin/python3", "-B", PROJECT / "docs/examples/controller.py", PROJECT, folder], capture_output=True,
+                                  text=True, env=dict(os.environ, PYTHONPATH=str(module)), timeout=100)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            text, found = self.check_page(pathlib.Path(folder) / "controller_py.html")
+            self.assertEqual(found.count("rad/s²"), 2)
+            self.assertEqual(text.count("<polyline"), 4)
             self.assertIn("10 mm, to be kept", text)
 
     def test_the_page_of_the_planner_says_one_clearance(self):
