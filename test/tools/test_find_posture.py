@@ -7,10 +7,11 @@ import os
 import re
 import subprocess
 import sys
-import tempfile
 import unittest
 
 from report_page import page_data
+from small_robot import box_obj, joint, link
+from tool_case import ToolCase
 
 PROGRAM, SOURCE = sys.argv[1:3]
 ROBOT = os.path.join(SOURCE, "data/hrp2_style/hrp2_style")
@@ -19,70 +20,38 @@ ARM = os.path.join(SOURCE, "test/tools/six_joint_arm.urdf")
 REACH = os.path.join(SOURCE, "test/tools/reach.json")
 
 
-class FindPosture(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        """A cache for the robot that the tests share, so that it is built once."""
-        cls.shared = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(cls.shared.cleanup)
-
-    def setUp(self):
-        self.folder = tempfile.TemporaryDirectory()
-        self.addCleanup(self.folder.cleanup)
-
+class FindPosture(ToolCase):
     def run_tool(self, *arguments):
-        cache = self.shared.name if f"{ROBOT}.urdf" in arguments else os.path.join(self.folder.name, "cache")
-        environment = dict(os.environ, XDG_CACHE_HOME=cache)
-        return subprocess.run([PROGRAM, *arguments], capture_output=True, text=True, env=environment, timeout=120)
+        return self.run_command(PROGRAM, *arguments)
 
     def run_task(self, task, *arguments):
-        path = os.path.join(self.folder.name, "task.json")
-        with open(path, "w", encoding="utf-8") as file:
-            file.write(task if isinstance(task, str) else json.dumps(task))
+        path = self.put("task.json", task if isinstance(task, str) else json.dumps(task))
         return self.run_tool(f"{ROBOT}.urdf", path, "--srdf", f"{ROBOT}.srdf", "--obstacles",
                              f"{FRIDGE}/fridge.urdf", *arguments)
 
-    def pick_can(self):
-        with open(f"{FRIDGE}/pick_can.json", encoding="utf-8") as file:
+    def read(self, path):
+        """What a JSON file holds."""
+        with open(path, encoding="utf-8") as file:
             return json.load(file)
+
+    def pick_can(self):
+        return self.read(f"{FRIDGE}/pick_can.json")
 
     def gate_task(self, height, **collisions):
         """A task for a box in the gap of a gate of two posts, or at some height in front of it."""
-        def boxes(name, side, *middles):
-            text = ""
-            for k, middle in enumerate(middles):
-                for x in (-side, side):
-                    for y in (-side, side):
-                        text += "".join("v %g %g %g\n" % (middle + x, y, z) for z in (-side, side))
-                for face in ((1, 2, 4, 3), (5, 7, 8, 6), (1, 5, 6, 2), (3, 4, 8, 7), (1, 3, 7, 5), (2, 6, 8, 4)):
-                    text += "f " + " ".join(str(v + 8 * k) for v in face) + "\n"
-            with open(os.path.join(self.folder.name, name), "w", encoding="utf-8") as file:
-                file.write(text)
-
-        def link(name, mesh=""):
-            shape = f'<collision><geometry><mesh filename="{mesh}"/></geometry></collision>' if mesh else ""
-            return f'<link name="{name}">{shape}</link>'
-
-        def joint(name, parent, child, kind, axis):
-            return (f'<joint name="{name}" type="{kind}"><parent link="{parent}"/><child link="{child}"/><axis xyz="{axis}"/>'
-                    '<limit lower="-1" upper="1" effort="1" velocity="1"/></joint>')
-
-        boxes("gate.obj", 0.1, -0.3, 0.3)
-        boxes("box.obj", 0.05, 0)
-        boxes("far.obj", 0.05, 9)
-        with open(os.path.join(self.folder.name, "gate.urdf"), "w", encoding="utf-8") as file:
-            file.write('<robot name="gate">' + link("gate", "gate.obj") + link("far", "far.obj") + link("box", "box.obj")
-                       + joint("slide", "gate", "far", "prismatic", "0 0 1") + joint("turn", "far", "box", "revolute", "0 0 1")
-                       + "</robot>")
-        with open(os.path.join(self.folder.name, "gate.srdf"), "w", encoding="utf-8") as file:
-            file.write('<robot name="gate"/>')
+        mesh = '<mesh filename="%s"/>'
+        self.put("gate.obj", box_obj(0.1, (-0.3, 0, 0), (0.3, 0, 0)))
+        self.put("box.obj", box_obj(0.05, (0, 0, 0)))
+        self.put("far.obj", box_obj(0.05, (9, 0, 0)))
+        self.put("gate.urdf", '<robot name="gate">' + link("gate", mesh % "gate.obj") + link("far", mesh % "far.obj") + link("box", mesh % "box.obj")
+                 + joint("slide", "gate", "far", "prismatic", axis="0 0 1") + joint("turn", "far", "box", axis="0 0 1") + "</robot>")
+        self.put("gate.srdf", '<robot name="gate"/>')
         task = {"base": "fixed", "start": {"joints": {"slide": 1}}, "collisions": collisions,
                 "placements": [{"link": "box", "target": {"position": [0, 0, height]}, "free": ["x", "y", "rx", "ry", "rz"]}]}
-        with open(os.path.join(self.folder.name, "gate.json"), "w", encoding="utf-8") as file:
-            json.dump(task, file)
+        self.put("gate.json", json.dumps(task))
 
     def gate_posture(self, *arguments):
-        names = [os.path.join(self.folder.name, name) for name in ("gate.urdf", "gate.json", "gate.srdf")]
+        names = [self.path(name) for name in ("gate.urdf", "gate.json", "gate.srdf")]
         run = self.run_tool(*names[:2], "--srdf", names[2], "-r", "0.01", "--format", "json", *arguments)
         return run.returncode, json.loads(run.stdout or "{}"), run.stderr
 
@@ -110,21 +79,16 @@ class FindPosture(unittest.TestCase):
         self.gate_task(0.5, parts="auto")
         status, far, _ = self.gate_posture()
         self.assertEqual((status, far["parts"]), (0, {}))
-        with open(os.path.join(self.folder.name, "gate.json"), encoding="utf-8") as file:
-            task = json.load(file)
+        task = self.read(self.path("gate.json"))
         task["collisions"]["margin"] = 0.14  # more than the posts leave: 0.15 m minus 2 r
         task["placements"][0]["target"]["position"] = [0, 0, 0]
-        with open(os.path.join(self.folder.name, "gate.json"), "w", encoding="utf-8") as file:
-            json.dump(task, file)
+        self.put("gate.json", json.dumps(task))
         self.assertEqual(self.gate_posture()[0], 1)
 
     def test_a_start_beyond_the_limits_begins_within_them(self):
-        with open(REACH, encoding="utf-8") as file:
-            task = json.load(file)
+        task = self.read(REACH)
         task["start"] = {"joints": {"joint1": 100}}
-        path = os.path.join(self.folder.name, "reach.json")
-        with open(path, "w", encoding="utf-8") as file:
-            json.dump(task, file)
+        path = self.put("reach.json", json.dumps(task))
         run = self.run_tool(ARM, path)
         self.assertEqual(run.returncode, 0, run.stdout)
         self.assertIn(f"{path}: start: the joint 'joint1' is at 100 rad, outside of its limits -3.1 to 3.1 rad; "
@@ -173,7 +137,7 @@ class FindPosture(unittest.TestCase):
             self.assertIn(word, run.stdout)
 
     def test_the_page_shows_the_posture_among_the_obstacles(self):
-        out = os.path.join(self.folder.name, "page.html")
+        out = self.path("page.html")
         run = self.run_task(self.pick_can(), "--format", "html", "-o", out)
         self.assertEqual(run.returncode, 0, run.stderr)
         with open(out, encoding="utf-8") as file:
@@ -209,7 +173,7 @@ class FindPosture(unittest.TestCase):
 
     def test_the_page_has_a_body_for_each_name_of_its_pairs(self):
         self.gate_task(0, parts=2, margin=0.01)
-        names = [os.path.join(self.folder.name, name) for name in ("gate.urdf", "gate.json", "gate.srdf")]
+        names = [self.path(name) for name in ("gate.urdf", "gate.json", "gate.srdf")]
         data = page_data(self.run_tool(*names[:2], "--srdf", names[2], "--format", "html").stdout)
         paired = {name for pair in data["pairs"] for name in (pair["link1"], pair["link2"])}
         self.assertIn("gate:1", paired)
@@ -229,20 +193,12 @@ class FindPosture(unittest.TestCase):
 
     def stands_at(self, position, obstacle, *arguments, base="fixed"):
         """A ball on a slide along x, 1 m above its base, with another ball of the same 5 cm as an obstacle."""
-        def robot(name, *links, joint=""):
-            ball = '<collision><geometry><sphere radius="0.05"/></geometry></collision>'
-            path = os.path.join(self.folder.name, name)
-            with open(path, "w", encoding="utf-8") as file:
-                file.write('<robot name="r">' + "".join(f'<link name="{link}">{ball if link != "world" else ""}</link>' for link in links)
-                           + joint + "</robot>")
-            return path
-        slide = robot("slide.urdf", "base", "slider", joint='<joint name="s" type="prismatic"><parent link="base"/><child link="slider"/>'
-                      '<origin xyz="0 0 1"/><axis xyz="1 0 0"/><limit lower="-1" upper="1" effort="1" velocity="1"/></joint>')
-        post = robot("post.urdf", "world", "post", joint='<joint name="p" type="fixed"><parent link="world"/><child link="post"/>'
-                     f'<origin xyz="{obstacle}"/></joint>')
-        task = os.path.join(self.folder.name, "stands.json")
-        with open(task, "w", encoding="utf-8") as file:
-            json.dump({"base": base, "start": {"base": {"position": position}}, "cost": {"towards": "start"}, "placements": []}, file)
+        ball = '<sphere radius="0.05"/>'
+        slide = self.put("slide.urdf", '<robot name="r">' + link("base", ball) + link("slider", ball)
+                         + joint("s", "base", "slider", "prismatic", "0 0 1") + "</robot>")
+        post = self.put("post.urdf", '<robot name="r">' + link("world") + link("post", ball) + joint("p", "world", "post", "fixed", obstacle) + "</robot>")
+        task = self.put("stands.json", json.dumps({"base": base, "start": {"base": {"position": position}}, "cost": {"towards": "start"},
+                                                   "placements": []}))
         return self.run_tool(slide, task, "--obstacles", post, "--primitives", "flat", *arguments)
 
     def test_a_fixed_base_stands_where_the_task_puts_it_in_every_format(self):
@@ -285,7 +241,7 @@ class FindPosture(unittest.TestCase):
         task["placements"][2]["link"] = "LARM_LINK9"
         for run, words in ((self.run_task(task), ["task.json: placements[2].link", "'LARM_LINK9'; did you mean 'LARM_LINK0'?"]),
                            (self.run_task("{"), ["task.json", "JSON"]),
-                           (self.run_task(self.pick_can(), "-o", self.folder.name), ["is a folder"]),
+                           (self.run_task(self.pick_can(), "-o", self.folder), ["is a folder"]),
                            (self.run_tool(f"{ROBOT}.urdf", f"{FRIDGE}/pick_can.json"), ["start.state", "--srdf"]),
                            (self.run_tool(f"{ROBOT}.urdf", f"{FRIDGE}/pick_can.json", "--srdf", f"{ROBOT}.srdf"),
                             ["collisions.pairs[0].obstacles", "give --obstacles"]),
@@ -305,13 +261,9 @@ class FindPosture(unittest.TestCase):
         self.assertEqual(self.run_tool("--help").returncode, 0)
 
     def arm(self, collisions):
-        with open(REACH, encoding="utf-8") as file:
-            task = json.load(file)
+        task = self.read(REACH)
         task["collisions"] = collisions
-        path = os.path.join(self.folder.name, "reach.json")
-        with open(path, "w", encoding="utf-8") as file:
-            json.dump(task, file)
-        return path
+        return self.put("reach.json", json.dumps(task))
 
     def test_an_arm_is_posed_from_its_bare_urdf(self):
         run = self.run_tool(ARM, REACH, "--format", "json")
@@ -336,15 +288,12 @@ class FindPosture(unittest.TestCase):
         self.assertEqual(closest["distance"] < 0, " mm deep" in text)
 
     def test_a_base_that_the_task_does_not_name_is_free_and_said_to_be(self):
-        with open(REACH, encoding="utf-8") as file:
-            task = json.load(file)
+        task = self.read(REACH)
         for base in (None, "floating", "fixed"):
             task.pop("base", None)
             if base:
                 task["base"] = base
-            path = os.path.join(self.folder.name, "base.json")
-            with open(path, "w", encoding="utf-8") as file:
-                json.dump(task, file)
+            path = self.put("base.json", json.dumps(task))
             run = self.run_tool(ARM, path, "--format", "json")
             self.assertEqual(run.returncode, 0, run.stderr)
             said = [w for w in json.loads(run.stdout)["warnings"] if "how the robot's base moves" in w]
@@ -379,7 +328,7 @@ class FindPosture(unittest.TestCase):
         self.assertIn("collisions.ignore[1].self", wrong.stderr)
 
     def test_nothing_to_check_is_no_answer(self):
-        out = os.path.join(self.folder.name, "posture.json")
+        out = self.path("posture.json")
         for none in ({"self": False}, {"ignore": [{"self": []}]}):
             run = self.run_tool(ARM, self.arm(none), "-o", out)
             self.assertEqual(run.returncode, 2)

@@ -13,21 +13,17 @@ import shutil
 import signal
 import subprocess
 import sys
-import tempfile
 import time
 import unittest
 
+from small_robot import box_obj
 from terminal import shown_on_terminal
+from tool_case import ToolCase
 
 PROGRAM = SOURCE = SHARED = ""
 KEYS = ["input", "points", "vertices", "edges", "faces", "r", "R", "over_cover_max", "over_cover_mean",
         "excess_max", "excess_max_open", "volume", "build_seconds", "verified"]
 CUBE = [(x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 1)]
-
-
-def write(path, text):
-    with open(path, "w") as out:
-        out.write(text)
 
 
 def read(path):
@@ -39,33 +35,29 @@ def points_file(points):
     return "3\n%d\n" % len(points) + "".join("%r %r %r\n" % p for p in points)
 
 
-class MeshToStpbv(unittest.TestCase):
+class MeshToStpbv(ToolCase):
     def setUp(self):
-        self.folder = tempfile.TemporaryDirectory()
-        self.addCleanup(self.folder.cleanup)
-        write(self.at("cube.txt"), points_file(CUBE))
-        write(self.at("other.txt"), points_file([(x, 2 * y, z) for x, y, z in CUBE]))
-        write(self.at("broken.txt"), points_file(CUBE)[:40])
-
-    def at(self, name):
-        return os.path.join(self.folder.name, name)
+        super().setUp()
+        self.put("cube.txt", points_file(CUBE))
+        self.put("other.txt", points_file([(x, 2 * y, z) for x, y, z in CUBE]))
+        self.put("broken.txt", points_file(CUBE)[:40])
 
     def names(self, folder=""):
-        return sorted(os.listdir(self.at(folder)))
+        return sorted(os.listdir(self.path(folder)))
 
     def run_tool(self, *arguments, code=0, stdin=os.devnull):
-        with open(self.at(stdin), "rb") as file:
-            done = subprocess.run([PROGRAM, *arguments], capture_output=True, text=True, cwd=self.folder.name, timeout=60, stdin=file)
+        with open(self.path(stdin), "rb") as file:
+            done = self.run_command(PROGRAM, *arguments, cwd=self.folder, stdin=file)
         self.assertEqual(done.returncode, code, done.stderr + done.stdout)
         return done
 
     def refused(self, *arguments, says, code=2, **options):
-        before = {name: os.path.isfile(self.at(name)) and read(self.at(name)) for name in self.names()}
+        before = {name: os.path.isfile(self.path(name)) and read(self.path(name)) for name in self.names()}
         done = self.run_tool(*arguments, code=code, **options)
         for words in says:
             self.assertIn(words, done.stderr)
         self.assertEqual(done.stdout, "")
-        after = {name: os.path.isfile(self.at(name)) and read(self.at(name)) for name in self.names()}
+        after = {name: os.path.isfile(self.path(name)) and read(self.path(name)) for name in self.names()}
         self.assertEqual(before, after)
 
     def test_an_excess_is_kept_or_the_report_says_that_it_is_not(self):
@@ -73,8 +65,8 @@ class MeshToStpbv(unittest.TestCase):
         corners = [(*steps[i], z) for z in (0, 1) for i in range(len(steps))]
         n = len(steps)
         sides = [(i, (i + 1) % n, n + (i + 1) % n, n + i) for i in range(n)]  # walls of a staircase, without ends
-        write(self.at("stairs.obj"), "".join("v %d %d %d\n" % p for p in corners)
-              + "".join("f %s\n" % " ".join(str(i + 1) for i in side) for side in sides))
+        self.put("stairs.obj", "".join("v %d %d %d\n" % p for p in corners)
+                 + "".join("f %s\n" % " ".join(str(i + 1) for i in side) for side in sides))
         def made(*arguments):
             return self.run_tool("stairs.obj", "-r", "0.001", "-o", "stairs.stpbv", "--force", *arguments).stdout
         near = json.loads(made("--excess", "0.3", "--json"))
@@ -104,7 +96,7 @@ class MeshToStpbv(unittest.TestCase):
         self.assertEqual(radii("-r", "0.003", "-R", "auto")[0], 0.003)
         self.assertNotEqual(radii("-r", "0.003", "-R", "auto")[1], 10)
         self.assertEqual(radii("-r", "20", "-R", "auto")[0], 20)  # above the R of 10 that holds where it is not given
-        write(self.at("one.txt"), points_file([(1, 2, 3)]))
+        self.put("one.txt", points_file([(1, 2, 3)]))
         self.assertIn("fitted r 0 mm, R 10 m", self.run_tool("one.txt", "-o", "one.stpbv", "-r", "auto").stdout)
         self.assertIn("fitted r 10 mm, R ", self.run_tool("cube.txt", "-o", "a.stpbv", "-r", "auto", "--force").stdout)
         self.refused("cube.txt", "-o", "new.stpbv", "-r", "fit", says=["-r: got fit, expected a number from 0 to 1e+06, or auto"])
@@ -129,7 +121,7 @@ class MeshToStpbv(unittest.TestCase):
 
     def test_one_input_is_written_to_the_named_file(self):
         done = self.run_tool("cube.txt", "-o", "cube.stpbv")
-        self.assertTrue(read(self.at("cube.stpbv")).startswith(b"stpbv 1\nr 0.01\nR 10\nvertices 8\n"))
+        self.assertTrue(read(self.path("cube.stpbv")).startswith(b"stpbv 1\nr 0.01\nR 10\nvertices 8\n"))
         for words in ("8 points in", "8 vertices", "12 edges", "6 faces", "volume", "over-cover max", "mean", " mm", "built in", " s"):
             self.assertIn(words, done.stdout)
         self.assertLessEqual(max(len(line) for line in done.stdout.splitlines()), 80)
@@ -138,7 +130,7 @@ class MeshToStpbv(unittest.TestCase):
     def test_the_same_input_gives_the_same_bytes(self):
         self.run_tool("cube.txt", "-o", "a.stpbv")
         self.run_tool("cube.txt", "-o", "b.stpbv")
-        self.assertEqual(read(self.at("a.stpbv")), read(self.at("b.stpbv")))
+        self.assertEqual(read(self.path("a.stpbv")), read(self.path("b.stpbv")))
 
     def test_several_inputs_go_into_a_folder(self):
         done = self.run_tool("cube.txt", "other.txt", "-o", "out/deep")
@@ -148,7 +140,7 @@ class MeshToStpbv(unittest.TestCase):
         self.assertEqual(done.stderr, "")
 
     def test_one_input_goes_into_a_folder_that_exists(self):
-        os.mkdir(self.at("out"))
+        os.mkdir(self.path("out"))
         self.run_tool("cube.txt", "-o", "out")
         self.run_tool("cube.txt", "-o", "new/")
         self.assertEqual(self.names("out") + self.names("new"), ["cube.stpbv", "cube.stpbv"])
@@ -166,10 +158,7 @@ class MeshToStpbv(unittest.TestCase):
 
     def test_a_gate_of_two_posts_exceeds_its_mesh_by_half_of_the_gap(self):
         # Two unit cubes 2 m apart. In the middle between them, the hull's side is 1 m away from both.
-        corners = [(x + 3 * k, y, z) for k in (0, 1) for x, y, z in CUBE]
-        faces = [(1, 2, 4, 3), (5, 7, 8, 6), (1, 5, 6, 2), (3, 4, 8, 7), (1, 3, 7, 5), (2, 6, 8, 4)]
-        write(self.at("gate.obj"), "".join("v %g %g %g\n" % c for c in corners)
-              + "".join("f %d %d %d %d\n" % tuple(v + 8 * k for v in face) for k in (0, 1) for face in faces))
+        self.put("gate.obj", box_obj(0.5, (0, 0, 0), (3, 0, 0)))
         report = json.loads(self.run_tool("gate.obj", "-o", "gate.stpbv", "--json", "-r", "0.02", "-R", "100").stdout)
         for key in ("excess_max", "excess_max_open"):
             self.assertGreaterEqual(report[key], 1 + report["over_cover_max"] - 1e-9)
@@ -196,16 +185,16 @@ class MeshToStpbv(unittest.TestCase):
     def test_where_all_inputs_fail_no_folder_is_left(self):
         done = self.run_tool("broken.txt", "missing.stl", "-o", "new/deep/", code=1)
         self.assertIn("all 2 inputs failed, nothing is written", done.stderr)
-        self.assertFalse(os.path.exists(self.at("new")))
-        os.mkdir(self.at("kept"))  # an existing folder of the user stays
+        self.assertFalse(os.path.exists(self.path("new")))
+        os.mkdir(self.path("kept"))  # an existing folder of the user stays
         self.run_tool("broken.txt", "missing.stl", "-o", "kept", code=1)
-        self.assertTrue(os.path.exists(self.at("kept")))
+        self.assertTrue(os.path.exists(self.path("kept")))
 
     def test_any_number_of_jobs_gives_the_same_files_and_reports_in_order(self):
         inputs = ["cube.txt", "broken.txt", "other.txt"]
         for i in range(20):
             name = "cloud%d.txt" % i
-            write(self.at(name), points_file([(x, y * (1 + 0.1 * i), z + 0.01 * i * x) for x, y, z in CUBE]))
+            self.put(name, points_file([(x, y * (1 + 0.1 * i), z + 0.01 * i * x) for x, y, z in CUBE]))
             inputs.append(name)
 
         def run(jobs):
@@ -213,7 +202,7 @@ class MeshToStpbv(unittest.TestCase):
             reports = [json.loads(line) for line in done.stdout.splitlines()]
             for report in reports:
                 del report["build_seconds"]
-            return reports, done.stderr, [read(self.at("out%s/%s" % (jobs, name))) for name in self.names("out" + jobs)]
+            return reports, done.stderr, [read(self.path("out%s/%s" % (jobs, name))) for name in self.names("out" + jobs)]
 
         reports, complaints, files = run("1")
         self.assertEqual([report["input"] for report in reports], [name for name in inputs if name != "broken.txt"])
@@ -224,9 +213,9 @@ class MeshToStpbv(unittest.TestCase):
         self.refused("cube.txt", "-o", "a.stpbv", "-R", "0.5", says=["cube.txt: ", "smallest usable R", "0.876"], code=1)
 
     def test_usage_errors_exit_with_2_and_change_nothing(self):
-        write(self.at("old.stpbv"), "old")
-        os.mkdir(self.at("twin"))
-        write(self.at("twin/cube.txt"), points_file(CUBE))
+        self.put("old.stpbv", "old")
+        os.mkdir(self.path("twin"))
+        self.put("twin/cube.txt", points_file(CUBE))
         for arguments, says in [
                 (["cube.txt"], ["-o"]),
                 ([], ["INPUT"]),
@@ -259,14 +248,14 @@ class MeshToStpbv(unittest.TestCase):
                 self.refused(*arguments, says=says)
 
     def test_force_replaces_a_file(self):
-        write(self.at("a.stpbv"), "old")
+        self.put("a.stpbv", "old")
         self.run_tool("cube.txt", "-o", "a.stpbv", "--force")
-        self.assertTrue(read(self.at("a.stpbv")).startswith(b"stpbv 1"))
+        self.assertTrue(read(self.path("a.stpbv")).startswith(b"stpbv 1"))
 
     def test_a_failure_keeps_the_old_file_under_force(self):
-        write(self.at("a.stpbv"), "old")
+        self.put("a.stpbv", "old")
         self.run_tool("broken.txt", "-o", "a.stpbv", "--force", code=1)
-        self.assertEqual(read(self.at("a.stpbv")), b"old")
+        self.assertEqual(read(self.path("a.stpbv")), b"old")
 
     def two_pieces(self, name, flat=False):
         """A tetrahedron, and 1 m away another one or a flat triangle, whose volume is a spindle."""
@@ -275,15 +264,15 @@ class MeshToStpbv(unittest.TestCase):
         text = "".join("v %g %g %g\n" % corner for corner in corners)
         text += "v 1 0 0\nv 2 0 0\nv 1.5 0.01 0\n" if flat else "".join("v %g %g %g\n" % (x + 1, y, z) for x, y, z in corners)
         faces += [(5, 6, 7)] if flat else [tuple(v + 4 for v in face) for face in faces]
-        write(self.at(name), text + "".join("f %d %d %d\n" % face for face in faces))
+        self.put(name, text + "".join("f %d %d %d\n" % face for face in faces))
 
     def test_volumes_replace_no_input_and_no_preview_replaces_a_volume(self):
         for name in ("w_0.obj", "w_1.obj", "body.obj"):
             self.two_pieces(name)
-            os.symlink(name, self.at(name.replace(".obj", ".stpbv")))
-        os.symlink("w_1.obj", self.at("link.obj"))
-        os.mkdir(self.at("out"))
-        os.symlink("../w_0.obj", self.at("out/body_0.stpbv"))
+            os.symlink(name, self.path(name.replace(".obj", ".stpbv")))
+        os.symlink("w_1.obj", self.path("link.obj"))
+        os.mkdir(self.path("out"))
+        os.symlink("../w_0.obj", self.path("out/body_0.stpbv"))
         for arguments, says in [
                 (["w_0.obj", "-o", "w.stpbv"], "w_0.stpbv: is an input"),
                 (["link.obj", "-o", "w.stpbv"], "w_1.stpbv: is an input"),
@@ -293,21 +282,21 @@ class MeshToStpbv(unittest.TestCase):
                     self.refused(*arguments, "--force", *count, says=[says])
         self.refused("body.obj", "-o", "t.stpbv", "--preview", "body.obj", "--force", says=["body.obj: is an input", "give --preview"])
         self.refused("-", "-o", "w_0.stpbv", "--force", says=["w_0.stpbv: is an input"], stdin="w_0.obj")
-        write(self.at("v.ply"), "old")
+        self.put("v.ply", "old")
         for name in ("v.stpbv", "v_1.stpbv"):  # a volume is written through a link
-            os.symlink("v.ply", self.at(name))
+            os.symlink("v.ply", self.path(name))
         self.refused("body.obj", "-o", "v.stpbv", "--preview", "v.ply", "--force", says=["v.ply: is the volume v.stpbv itself"])
-        os.unlink(self.at("v.stpbv"))
+        os.unlink(self.path("v.stpbv"))
         self.refused("body.obj", "-o", "v.stpbv", "--preview", "v.ply", "--parts", "2", "--force",
                      says=["v.ply: is the volume v_1.stpbv itself"])
-        self.assertEqual(read(self.at("v.ply")), b"old")
-        os.symlink("n.ply", self.at("n.stpbv"))  # the link's target does not exist yet
+        self.assertEqual(read(self.path("v.ply")), b"old")
+        os.symlink("n.ply", self.path("n.stpbv"))  # the link's target does not exist yet
         self.refused("body.obj", "-o", "n.stpbv", "--preview", "n.ply", says=["n.ply: is the volume n.stpbv itself"])
         self.run_tool("body.obj", "-o", "t.stpbv", "--parts", "2", "--preview", "t.ply")
-        self.assertTrue(read(self.at("t_0.stpbv")).startswith(b"stpbv 1"))
+        self.assertTrue(read(self.path("t_0.stpbv")).startswith(b"stpbv 1"))
 
     def test_a_gltf_is_looked_into_once_for_all_names_of_parts(self):
-        write(self.at("large.gltf"), json.dumps({"asset": {"version": "2.0"}, "extras": list(range(300000))}))
+        self.put("large.gltf", json.dumps({"asset": {"version": "2.0"}, "extras": list(range(300000))}))
 
         def seconds():  # processor time, which other processes do not change
             before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
@@ -316,37 +305,37 @@ class MeshToStpbv(unittest.TestCase):
 
         alone = seconds()
         for part in range(64):
-            write(self.at("part_%d.stpbv" % part), "old")
+            self.put("part_%d.stpbv" % part, "old")
         self.assertLess(seconds(), 5 * alone)
 
     def test_parts_are_written_all_or_none(self):
         self.two_pieces("two.obj", flat=True)
         self.refused("two.obj", "-o", "two.txt", "--parts", "2", "--format", "sch", "--preview", "two.ply", code=1,
                      says=["two_1.txt: ", "one or two vertices"])
-        write(self.at("two_1.stpbv"), "old")
+        self.put("two_1.stpbv", "old")
         self.refused("two.obj", "-o", "two.stpbv", "--parts", "2", code=1, says=["two_1.stpbv: exists", "--force"])
-        os.symlink("/dev/full", self.at("full_1.stpbv"))
+        os.symlink("/dev/full", self.path("full_1.stpbv"))
         self.refused("two.obj", "-o", "full.stpbv", "--parts", "2", code=1, says=["full_1.stpbv: "])
-        os.mkdir(self.at("a_1.stpbv"))
+        os.mkdir(self.path("a_1.stpbv"))
         self.refused("two.obj", "-o", "a.stpbv", "--parts", "2", "--force", code=1, says=["a_1.stpbv: is a folder"])
         self.run_tool("two.obj", "-o", "two.stpbv", "--parts", "2", "--force")
-        self.assertTrue(read(self.at("two_1.stpbv")).startswith(b"stpbv 1"))
-        write(self.at("two_2.stpbv"), "old")
+        self.assertTrue(read(self.path("two_1.stpbv")).startswith(b"stpbv 1"))
+        self.put("two_2.stpbv", "old")
         done = self.run_tool("two.obj", "-o", "two.stpbv", "--parts", "2", "--force")
         self.assertIn("two_2.stpbv: is from an earlier run", done.stderr)
 
     def test_parts_cover_points_that_belong_to_no_triangle(self):
-        write(self.at("loose.ply"), "ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\nproperty float y\nproperty float z\nelement face 1\n"
+        self.put("loose.ply", "ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\nproperty float y\nproperty float z\nelement face 1\n"
               "property list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 3 3\n4 3 3\n3 0 1 2\n")
         report = json.loads(self.run_tool("loose.ply", "-o", "loose.stpbv", "--parts", "4", "--json").stdout)
         self.assertEqual((report["pieces"], report["closed_pieces"]), (3, 2))  # the triangle is open
-        points = [line.split()[:3] for i in range(len(report["parts"])) for line in read(self.at("loose_%d.stpbv" % i)).splitlines()]
+        points = [line.split()[:3] for i in range(len(report["parts"])) for line in read(self.path("loose_%d.stpbv" % i)).splitlines()]
         for point in ([b"3", b"3", b"3"], [b"4", b"3", b"3"]):
             self.assertIn(point, points)
 
     def test_parts_of_an_open_mesh_claim_no_inside(self):
         triangles = "".join("v %d %d 0\nv %d %d 0\nv %d %d 1\n" % (x, 0, x + 1, 0, x, 1) for x in (0, 5))
-        write(self.at("open.obj"), triangles + "f 1 2 3\nf 4 5 6\n")
+        self.put("open.obj", triangles + "f 1 2 3\nf 4 5 6\n")
         said = self.run_tool("open.obj", "-o", "open.stpbv", "--parts", "2").stdout
         self.assertIn("0 of 2 pieces closed, the triangles alone are covered", said)
 
@@ -358,12 +347,12 @@ class MeshToStpbv(unittest.TestCase):
                 self.refused(name, "-o", "b.stpbv", *count, says=[name + ": " + says, "give"], code=1)
 
     def test_a_segment_without_margin_has_a_preview_and_a_point_is_refused_before_anything_is_written(self):
-        write(self.at("two.txt"), points_file(CUBE[:2]))
+        self.put("two.txt", points_file(CUBE[:2]))
         self.run_tool("two.txt", "-o", "two.stpbv", "-r", "0", "--preview", "two.obj")
-        self.assertGreater(read(self.at("two.obj")).count(b"\nf "), 10)
-        write(self.at("one.txt"), points_file(CUBE[:1]))
+        self.assertGreater(read(self.path("two.obj")).count(b"\nf "), 10)
+        self.put("one.txt", points_file(CUBE[:1]))
         self.refused("one.txt", "-o", "one.stpbv", "-r", "0", "--preview", "one.obj", says=["one.txt: ", "give -r"], code=1)
-        self.assertFalse(os.path.exists(self.at("one.stpbv")))
+        self.assertFalse(os.path.exists(self.path("one.stpbv")))
 
     def test_help_has_every_option_and_examples(self):
         text = self.run_tool("--help").stdout
@@ -373,7 +362,7 @@ class MeshToStpbv(unittest.TestCase):
 
     def test_scale_and_radii_act(self):
         self.run_tool("cube.txt", "-o", "a.stpbv", "--scale", "0.5", "-r", "0.25", "-R", "3")
-        text = read(self.at("a.stpbv")).decode()
+        text = read(self.path("a.stpbv")).decode()
         self.assertIn("r 0.25\nR 3\n", text)
         self.assertIn("0.5 0.5 0.5", text)
 
@@ -381,27 +370,26 @@ class MeshToStpbv(unittest.TestCase):
         self.run_tool("cube.txt", "-o", "a.stpbv", "-q")
         self.run_tool("a.stpbv", "-o", "a_sch.txt", "--format", "sch", "-q")
         self.run_tool("a_sch.txt", "-o", "b.stpbv", "-q", "--verify")
-        self.assertEqual(read(self.at("a.stpbv")), read(self.at("b.stpbv")))
+        self.assertEqual(read(self.path("a.stpbv")), read(self.path("b.stpbv")))
         self.refused("a.stpbv", "-o", "c.stpbv", "-R", "20", says=["a.stpbv: is an STP-BV already", "R = 10"], code=1)
         self.run_tool("a.stpbv", "-o", "d.stpbv", "-R", "10", "-q")
         self.assertNotIn("built in", self.run_tool("a.stpbv", "-o", "e.stpbv").stdout)
         for kind in ("stpbv", "sch"):  # a volume's file may have any name
             self.run_tool("a.stpbv", "-o", kind + ".bak", "--format", kind, "-q")
             self.run_tool(kind + ".bak", "-o", kind + "_back.stpbv", "-q")
-            self.assertEqual(read(self.at("a.stpbv")), read(self.at(kind + "_back.stpbv")))
+            self.assertEqual(read(self.path("a.stpbv")), read(self.path(kind + "_back.stpbv")))
 
     def test_what_sch_core_cannot_hold_is_said(self):
-        write(self.at("two.txt"), points_file(CUBE[:2]))
+        self.put("two.txt", points_file(CUBE[:2]))
         self.refused("two.txt", "-o", "a.txt", "--format", "sch", says=["a.txt", "one or two vertices", "stpbv"], code=1)
 
     def shell(self, command):
-        done = subprocess.run(["bash", "-c", command], capture_output=True, text=True, cwd=self.folder.name, timeout=60,
-                              env=dict(os.environ, T=PROGRAM))
-        return done
+        """Runs a command in which $T is the program."""
+        return super().shell(f'T="{PROGRAM}"; {command}', cwd=self.folder)
 
     def test_volumes_come_from_and_go_to_pipes_and_descriptors(self):
         self.run_tool("cube.txt", "-o", "cube.stpbv")
-        volume = read(self.at("cube.stpbv")).decode()
+        volume = read(self.path("cube.stpbv")).decode()
         for command in ('"$T" cube.txt -o -', '"$T" cube.txt -o /dev/stdout', '"$T" cube.txt -o /dev/stdout | cat',
                         '"$T" - -o - < cube.txt', 'cat cube.txt | "$T" - -o -', 'cat cube.txt | "$T" /dev/stdin -o -',
                         '"$T" <(cat cube.txt) -o -', '"$T" cube.stpbv -o - --json', 'cat cube.stpbv | "$T" - -o -',
@@ -418,7 +406,7 @@ class MeshToStpbv(unittest.TestCase):
             with self.subTest(command=command):
                 name = "redirected%d" % number
                 done = self.shell(command % name)
-                self.assertEqual((done.returncode, read(self.at(name)).decode()), (0, volume), done.stderr)
+                self.assertEqual((done.returncode, read(self.path(name)).decode()), (0, volume), done.stderr)
 
     def test_several_volumes_do_not_go_to_standard_output(self):
         self.refused("cube.txt", "other.txt", "-o", "-", says=["-o -", "one volume"])
@@ -426,12 +414,12 @@ class MeshToStpbv(unittest.TestCase):
 
     def test_a_mesh_from_a_pipe_gives_the_volume_of_its_file(self):
         self.two_pieces("two.obj")
-        shutil.copy(pathlib.Path(SOURCE, "data/hrp2_style/meshes/HEAD_LINK1.dae"), self.at("head.dae"))
-        write(self.at("cube.xyz"), "# a cube\n" + "".join("%r %r %r\n" % p for p in CUBE))
+        shutil.copy(pathlib.Path(SOURCE, "data/hrp2_style/meshes/HEAD_LINK1.dae"), self.path("head.dae"))
+        self.put("cube.xyz", "# a cube\n" + "".join("%r %r %r\n" % p for p in CUBE))
         self.run_tool("cube.txt", "-o", "cube.stpbv", "--preview", "cube.glb", "-q")
         for name in ("two.obj", "head.dae", "cube.glb", "cube.xyz"):
             self.run_tool(name, "-o", name + ".stpbv", "-q", "--scale", "0.5")
-            volume = read(self.at(name + ".stpbv")).decode()
+            volume = read(self.path(name + ".stpbv")).decode()
             for command in ('cat %s | "$T" - -o - --scale 0.5', 'cat %s | "$T" /dev/stdin -o - --scale 0.5', '"$T" - -o - --scale 0.5 < %s',
                             '"$T" /dev/stdin -o - --scale 0.5 < %s', '"$T" <(cat %s) -o - --scale 0.5'):
                 with self.subTest(command=command % name):
@@ -440,19 +428,19 @@ class MeshToStpbv(unittest.TestCase):
         self.run_tool("two.obj", "-o", "file.stpbv", "--parts", "2", "-q")
         self.run_tool("-", "-o", "pipe.stpbv", "--parts", "2", "-q", stdin="two.obj")
         for part in "01":
-            self.assertEqual(read(self.at(f"file_{part}.stpbv")), read(self.at(f"pipe_{part}.stpbv")))
+            self.assertEqual(read(self.path(f"file_{part}.stpbv")), read(self.path(f"pipe_{part}.stpbv")))
 
     def test_a_cloud_is_read_by_its_name_and_a_wrong_line_is_named(self):
         self.run_tool("cube.txt", "-o", "cube.stpbv", "-q")
-        shutil.copy(self.at("cube.txt"), self.at("cube.qc"))
+        shutil.copy(self.path("cube.txt"), self.path("cube.qc"))
         for ending in ("xyz", "pts"):
-            write(self.at("cube." + ending), "".join("%r\t%r %r # m\n" % p for p in CUBE))
+            self.put("cube." + ending, "".join("%r\t%r %r # m\n" % p for p in CUBE))
         for ending in ("qc", "xyz", "pts"):
             self.run_tool("cube." + ending, "-o", ending + ".stpbv", "-q")
-            self.assertEqual(read(self.at(ending + ".stpbv")), read(self.at("cube.stpbv")))
-        write(self.at("water.xyz"), "3\nwater\nO 0 0 0\nH 1 0 0\nH 0 1 0\n")
+            self.assertEqual(read(self.path(ending + ".stpbv")), read(self.path("cube.stpbv")))
+        self.put("water.xyz", "3\nwater\nO 0 0 0\nH 1 0 0\nH 0 1 0\n")
         self.refused("water.xyz", "-o", "a.stpbv", says=["water.xyz:1: got '3', expected three coordinates", "chemistry"], code=1)
-        write(self.at("odd.pts"), "0 0 0\n1 0 0\n0 1\n")
+        self.put("odd.pts", "0 0 0\n1 0 0\n0 1\n")
         self.refused("odd.pts", "-o", "a.stpbv", says=["odd.pts:3: got 2 words, expected three coordinates"], code=1)
 
     def test_a_broken_mesh_from_a_pipe_and_a_device_are_refused(self):
@@ -465,7 +453,7 @@ class MeshToStpbv(unittest.TestCase):
                 done = self.shell(command)
                 self.assertEqual((done.returncode, done.stdout), (1, ""), done)
                 self.assertRegex(done.stderr, says)
-        self.assertFalse(os.path.exists(self.at("a.stpbv")))
+        self.assertFalse(os.path.exists(self.path("a.stpbv")))
 
     def test_output_that_cannot_be_written_is_a_failure(self):
         for command, code in (('"$T" cube.txt -o a.stpbv > /dev/full', 2), ('"$T" cube.txt -o b.stpbv --json > /dev/full', 2),
@@ -476,10 +464,10 @@ class MeshToStpbv(unittest.TestCase):
                 self.assertIn("cannot be written", done.stderr)
 
     def test_a_pipe_that_nobody_reads_or_writes_is_left_by_a_signal(self):
-        os.mkfifo(self.at("p"))
+        os.mkfifo(self.path("p"))
         for arguments in (["cube.txt", "-o", "p"], ["p", "-o", "a.stpbv"]):
             for number in (signal.SIGINT, signal.SIGTERM):
-                process = subprocess.Popen([PROGRAM, *arguments], cwd=self.folder.name, stderr=subprocess.DEVNULL)
+                process = subprocess.Popen([PROGRAM, *arguments], cwd=self.folder, stderr=subprocess.DEVNULL)
                 time.sleep(0.5)
                 process.send_signal(number)
                 self.assertEqual(process.wait(20), -number)
@@ -493,11 +481,11 @@ class MeshToStpbv(unittest.TestCase):
         self.refused("cube.txt", "-o", "new.stpbv", "--preview", "p.obj", says=["p.obj: exists", "--force"])
 
     def test_a_preview_that_cannot_be_written_leaves_no_volume(self):
-        os.symlink("/dev/full", self.at("full.obj"))
+        os.symlink("/dev/full", self.path("full.obj"))
         self.two_pieces("pieces.obj")
         for arguments in (["cube.txt"], ["pieces.obj", "--parts", "2"]):
             self.refused(*arguments, "-o", "new.stpbv", "--preview", "full.obj", says=["full.obj: cannot be written"], code=1)
-            self.assertEqual([n for n in os.listdir(self.at(".")) if n.startswith("new")], [])
+            self.assertEqual([n for n in os.listdir(self.path(".")) if n.startswith("new")], [])
 
     def test_no_bar_and_no_escape_codes_away_from_a_terminal(self):
         done = self.run_tool("cube.txt", "other.txt", "-o", "out")
@@ -506,7 +494,7 @@ class MeshToStpbv(unittest.TestCase):
 
     def on_a_terminal(self, *arguments, kind="xterm", columns=80):
         """The program's output on a terminal as its standard error."""
-        return shown_on_terminal(self, [PROGRAM, *arguments], "stderr", columns, stdout=subprocess.DEVNULL, cwd=self.folder.name,
+        return shown_on_terminal(self, [PROGRAM, *arguments], "stderr", columns, stdout=subprocess.DEVNULL, cwd=self.folder,
                                  env={**os.environ, "TERM": kind})
 
     def test_a_bar_on_a_terminal(self):
@@ -519,8 +507,8 @@ class MeshToStpbv(unittest.TestCase):
         # One letter takes two cells, one takes one, and one consists of two characters.
         names = [letter * 60 + ".txt" for letter in ("\u53f3", "\u0434", "o\u0308")]
         for name in names:
-            write(self.at(name), points_file(CUBE))
-        shown = self.on_a_terminal(*(self.at(name) for name in names), "-o", "out", "-j", "1", columns=40)
+            self.put(name, points_file(CUBE))
+        shown = self.on_a_terminal(*(self.path(name) for name in names), "-o", "out", "-j", "1", columns=40)
         bars = [line for line in re.split(r"\r\x1b\[K", shown) if line.startswith("[")]
         self.assertEqual([bar.split()[1] for bar in bars], ["0/3", "1/3", "2/3"])
         for bar, (letter, cells) in zip(bars, (("\u53f3", 2), ("\u0434", 1), ("o\u0308", 1))):
@@ -530,16 +518,16 @@ class MeshToStpbv(unittest.TestCase):
         inputs = []
         for i in range(300):
             inputs.append("p%d.txt" % i)
-            write(self.at(inputs[-1]), points_file([(x + 0.001 * i, y, z) for x, y, z in CUBE]))
+            self.put(inputs[-1], points_file([(x + 0.001 * i, y, z) for x, y, z in CUBE]))
         for wait, end in ((0.02, signal.SIGINT), (0.05, signal.SIGTERM), (0.1, signal.SIGINT)):
-            process = subprocess.Popen([PROGRAM, *inputs, "-o", "out", "-q", "--force"], cwd=self.folder.name)
+            process = subprocess.Popen([PROGRAM, *inputs, "-o", "out", "-q", "--force"], cwd=self.folder)
             time.sleep(wait)
             process.send_signal(end)
             process.wait(60)
-            written = self.names("out") if os.path.isdir(self.at("out")) else []
+            written = self.names("out") if os.path.isdir(self.path("out")) else []
             for name in written:
                 self.assertTrue(name.endswith(".stpbv"), name)
-                self.assertTrue(read(self.at("out/" + name)).endswith(b"\nend\n"), name)
+                self.assertTrue(read(self.path("out/" + name)).endswith(b"\nend\n"), name)
 
     def test_the_humanoid_converts(self):
         folder = os.path.join(SHARED, "robots/jvrc_description/convex/jvrc1")

@@ -21,6 +21,8 @@ from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.by import By
 from selenium.webdriver.support.ui import Select, WebDriverWait
 
+from small_robot import joint, link
+
 PROGRAM, SOURCE = sys.argv[1:3]
 ROBOT = os.path.join(SOURCE, "data/hrp2_style/hrp2_style")
 FLAGS = ["--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking",
@@ -84,16 +86,10 @@ def primitives(count):
     """A chain of `count` links, each a sphere, a box, a cylinder or a mesh-free pair of shapes; the first has an ugly name."""
     shapes = ['<sphere radius="0.05"/>', '<box size="0.06 0.1 0.08"/>', '<cylinder radius="0.04" length="0.12"/>',
               '<capsule radius="0.03" length="0.1"/>']
-    text = '<robot name="primitives">'
-    for i in range(count):
-        name = xml(UGLY) if i == 0 else f"link{i}"
-        text += (f'<link name="{name}"><collision><geometry>{shapes[i % 4]}</geometry></collision></link>')
-        if i:
-            parent = xml(UGLY) if i == 1 else f"link{i - 1}"
-            text += (f'<joint name="joint{i}" type="revolute"><parent link="{parent}"/><child link="{name}"/>'
-                     '<origin xyz="0.2 0 0.02"/><axis xyz="0 1 0"/>'
-                     '<limit lower="-2" upper="2" effort="1" velocity="1"/></joint>')
-    return text + "</robot>"
+    names = [xml(UGLY)] + [f"link{i}" for i in range(1, count)]
+    links = "".join(link(name, shapes[i % 4]) for i, name in enumerate(names))
+    joints = "".join(joint(f"joint{i}", names[i - 1], names[i], origin="0.2 0 0.02", axis="0 1 0", limits=(-2, 2)) for i in range(1, count))
+    return '<robot name="primitives">' + links + joints + "</robot>"
 
 
 class Browser(unittest.TestCase):
@@ -265,12 +261,9 @@ class Page(Browser):
 
     def test_nearer_bodies_hide_farther_ones(self):
         # Two balls, one behind the other: the one in front hides the other completely.
-        ball = '<collision><geometry><sphere radius="{}"/></geometry></collision>'
-        urdf = self.put("balls.urdf", '<robot name="balls"><link name="near">' + ball.format(0.2) + '</link><link name="middle"/>'
-                        '<link name="far">' + ball.format(0.1) + '</link>' + "".join(
-                            f'<joint name="{c}" type="prismatic"><parent link="{p}"/><child link="{c}"/><origin xyz="-0.3 0 0"/><axis xyz="1 0 0"/>'
-                            '<limit lower="-0.1" upper="0.1" effort="1" velocity="1"/></joint>'
-                            for p, c in (("near", "middle"), ("middle", "far"))) + "</robot>")
+        links = link("near", '<sphere radius="0.2"/>') + link("middle") + link("far", '<sphere radius="0.1"/>')
+        urdf = self.put("balls.urdf", '<robot name="balls">' + links + "".join(
+            joint(c, p, c, "prismatic", "-0.3 0 0", limits=(-0.1, 0.1)) for p, c in (("near", "middle"), ("middle", "far"))) + "</robot>")
         self.open(urdf, view="#yaw=0&pitch=0")
         seen = {part: n for part, n in self.pixels().items() if part in ("first", "second")}
         first = self.script("return scene.pair.link1")
@@ -380,12 +373,10 @@ class Page(Browser):
 
     def test_a_pair_that_is_not_decided_is_not_called_clear(self):
         # A ball rolls on a floor, with a distance of 0 up to rounding. A box above it stays clear.
-        slide = ('<joint name="{0}" type="prismatic"><parent link="{1}"/><child link="{2}"/><axis xyz="{3}"/>'
-                 '<limit lower="-1" upper="1" effort="1" velocity="1"/></joint>')
         shape = '<link name="{}"><collision><origin xyz="0 0 {}"/><geometry>{}</geometry></collision></link>'
         urdf = self.put("cart.urdf", '<robot name="cart"><link name="rail"/>' + shape.format("foot", 0.1, '<sphere radius="0.1"/>')
-                        + shape.format("arm", 0.5, '<box size="0.1 0.1 0.2"/>') + slide.format("x", "rail", "foot", "1 0 0")
-                        + slide.format("y", "foot", "arm", "0 1 0") + "</robot>")
+                        + shape.format("arm", 0.5, '<box size="0.1 0.1 0.2"/>') + joint("x", "rail", "foot", "prismatic")
+                        + joint("y", "foot", "arm", "prismatic", axis="0 1 0") + "</robot>")
         floor = self.put("floor.urdf", '<robot name="ground">' + shape.format("floor", -0.05, '<box size="4 4 0.1"/>') + "</robot>")
         way = self.put("way.csv", "time,x,y\n0,-0.5,0\n1,0.5,0\n2,0.5,0.4\n")
         self.open(urdf, "--obstacles", floor, "--trajectory", way)
@@ -409,10 +400,8 @@ class Page(Browser):
 
     def test_the_page_of_a_posture_shows_what_its_task_asks_for(self):
         ball = '<link name="{}"><inertial><mass value="1"/></inertial><collision><geometry><sphere radius="0.05"/></geometry></collision></link>'
-        slide = ('<joint name="{0}" type="prismatic"><parent link="{1}"/><child link="{2}"/><origin xyz="{3} 0 0"/><axis xyz="0 0 1"/>'
-                 '<limit lower="-1" upper="1" effort="1" velocity="1"/></joint>')
-        urdf = self.put("two.urdf", '<robot name="two">' + ball.format("base") + ball.format("m") + ball.format("hand") + slide.format("a", "base", "m", 0.5)
-                        + slide.format("b", "m", "hand", 0.5) + "</robot>")
+        urdf = self.put("two.urdf", '<robot name="two">' + ball.format("base") + ball.format("m") + ball.format("hand")
+                        + joint("a", "base", "m", "prismatic", "0.5 0 0", "0 0 1") + joint("b", "m", "hand", "prismatic", "0.5 0 0", "0 0 1") + "</robot>")
         task = self.put("task.json", '{"base": "fixed", "placements": [{"name": "high", "link": "hand", "target": {"position": [1.01, 0, 0.5]}},'
                                      '{"link": "m", "target": {"position": [0.5, 0, 0.2]}, "free": ["rx", "ry", "rz"]}]}')
         find_posture = os.path.join(os.path.dirname(PROGRAM), "find_posture")

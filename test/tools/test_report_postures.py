@@ -4,24 +4,19 @@
 """
 import json
 import os
-import subprocess
 import sys
-import tempfile
 import unittest
+
+from small_robot import joint, link
+from tool_case import ToolCase
 
 PROGRAM = sys.argv[1]
 
-BALL = '<collision><geometry><sphere radius="0.1"/></geometry></collision>'
-
-
-def slide(name, parent, child, origin):
-    return (f'<joint name="{name}" type="prismatic"><parent link="{parent}"/><child link="{child}"/><origin xyz="{origin}"/>'
-            '<axis xyz="1 0 0"/><limit lower="-1" upper="1" effort="1" velocity="1"/></joint>')
-
+BALL = '<sphere radius="0.1"/>'
 
 # Two balls that slide towards each other from 1 m apart. They meet after each has moved by at least 0.4 m.
-ROBOT = ('<robot name="two"><link name="base"/><link name="left">' + BALL + '</link><link name="right">' + BALL + '</link>' +
-         slide("l", "base", "left", "0 0 0") + slide("r", "base", "right", "1 0 0") + "</robot>")
+ROBOT = ('<robot name="two">' + link("base") + link("left", BALL) + link("right", BALL) +
+         joint("l", "base", "left", "prismatic") + joint("r", "base", "right", "prismatic", "1 0 0") + "</robot>")
 WALL = ('<robot name="scene"><link name="wall"><collision><origin xyz="5 0 0"/><geometry><box size="0.1 9 9"/></geometry></collision>'
         "</link></robot>")
 
@@ -31,25 +26,13 @@ def state(name, group, **joints):
     return f'<group_state name="{name}" group="{group}">{values}</group_state>'
 
 
-class Postures(unittest.TestCase):
+class Postures(ToolCase):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = folder.name
+        super().setUp()
         self.urdf = self.put("robot.urdf", ROBOT)
 
-    def put(self, name, text):
-        path = self.path(name)
-        with open(path, "w", encoding="utf-8") as file:
-            file.write(text)
-        return path
-
-    def path(self, name):
-        return os.path.join(self.folder, name)
-
     def report(self, *arguments, status):
-        done = subprocess.run([PROGRAM, self.urdf, "--no-cache", "--samples", "100", "--format", "json", *arguments],
-                              capture_output=True, text=True, timeout=60)
+        done = self.run_command(PROGRAM, self.urdf, "--no-cache", "--samples", "100", "--format", "json", *arguments)
         self.assertEqual(done.returncode, status, done.stderr)
         return done.stderr if status == 2 else json.loads(done.stdout)
 
@@ -195,7 +178,7 @@ class Postures(unittest.TestCase):
 
     def test_joints_that_stand_still_are_told(self):
         door = ('<robot name="scene"><link name="wall"><collision><origin xyz="5 0 0"/><geometry><box size="0.1 9 9"/></geometry>'
-                '</collision></link><link name="door"/>' + slide("hinge", "wall", "door", "0 0 0") + "</robot>")
+                '</collision></link><link name="door"/>' + joint("hinge", "wall", "door", "prismatic") + "</robot>")
         neutral = self.put("neutral.json", "{}")
         warnings = self.report("--obstacles", self.put("scene.urdf", door), "--pose", neutral, status=0)["warnings"]
         self.assertTrue(any("'hinge' stands still" in w for w in warnings), warnings)

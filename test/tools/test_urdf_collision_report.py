@@ -10,47 +10,20 @@ import os
 import re
 import subprocess
 import sys
-import tempfile
 import unittest
 
 from report_page import page_data
+from small_robot import box_obj, joint, link
+from tool_case import ToolCase
 
 PROGRAM, SOURCE = sys.argv[1:3]
 ROBOT = os.path.join(SOURCE, "data/hrp2_style/hrp2_style")
 SHARED = os.path.join(os.path.dirname(os.path.abspath(SOURCE)), "shared", "robots")
 
 
-def link(name, geometry=""):
-    shape = f"<collision><geometry>{geometry}</geometry></collision>" if geometry else ""
-    return f'<link name="{name}">{shape}</link>'
-
-
-def joint(name, parent, child, kind="revolute", origin="0 0 0"):
-    return (f'<joint name="{name}" type="{kind}"><parent link="{parent}"/><child link="{child}"/><origin xyz="{origin}"/>'
-            '<limit lower="-1" upper="1" effort="1" velocity="1"/></joint>')
-
-
-class Report(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        """A cache for the robots that many tests use, so that they are built once. Robots of a single test have their own."""
-        cls.shared = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(cls.shared.cleanup)
-
-    def setUp(self):
-        self.folder = tempfile.TemporaryDirectory()
-        self.addCleanup(self.folder.cleanup)
-
-    def run_tool(self, *arguments, timeout=120):
-        cache = self.shared.name if ROBOT + ".urdf" in arguments else os.path.join(self.folder.name, "cache")
-        environment = dict(os.environ, XDG_CACHE_HOME=cache)
-        return subprocess.run([PROGRAM, *arguments], capture_output=True, text=True, env=environment, timeout=timeout)
-
-    def put(self, name, text):
-        path = os.path.join(self.folder.name, name)
-        with open(path, "w") as file:
-            file.write(text)
-        return path
+class Report(ToolCase):
+    def run_tool(self, *arguments, **options):
+        return self.run_command(PROGRAM, *arguments, **options)
 
     def robot(self, body):
         return self.put("robot.urdf", f'<robot name="small">{body}</robot>')
@@ -63,9 +36,7 @@ class Report(unittest.TestCase):
         ball = '<sphere radius="0.05"/>'
         return self.robot(link("root") + link("still", ball) + link("moving", ball) + link("far", ball)
                           + joint("turn", "root", "still") + joint("spin", "root", "far", origin="0 9 0")
-                          + '<joint name="slide" type="prismatic"><parent link="root"/><child link="moving"/>'
-                            '<origin xyz="1 0.06 0"/><axis xyz="-1 0 0"/>'
-                            '<limit lower="-2" upper="2" effort="1" velocity="1"/></joint>')
+                          + joint("slide", "root", "moving", "prismatic", "1 0.06 0", "-1 0 0", (-2, 2)))
 
     def follow(self, name, text, *arguments):
         return self.run_tool(self.slider(), "--primitives", "flat", "--samples", "20", "--trajectory",
@@ -102,8 +73,7 @@ class Report(unittest.TestCase):
         ball = '<sphere radius="0.05"/>'
         robot = self.robot(link("root") + link("grazed", ball) + link("hit", ball) + link("moving", ball)
                            + joint("g", "root", "grazed", origin="0.5 0.099 0") + joint("h", "root", "hit", origin="1 0 0")
-                           + '<joint name="slide" type="prismatic"><parent link="root"/><child link="moving"/><axis xyz="1 0 0"/>'
-                             '<limit lower="0" upper="2" effort="1" velocity="1"/></joint>')
+                           + joint("slide", "root", "moving", "prismatic", limits=(0, 2)))
         arguments = [robot, "--primitives", "flat", "--samples", "20", "--trajectory", self.put("way.csv", "time,slide\n0,0\n10,1\n")]
         done = self.run_tool(*arguments)
         self.assertRegex(done.stdout, r"CONTACT of grazed - moving at 4\.8\d* s, at")
@@ -343,7 +313,7 @@ class Report(unittest.TestCase):
         self.assertGreater(json.loads(done.stdout)["summary"]["colliding"], 0)
 
     def test_a_seed_gives_the_same_srdf_and_it_loads_again(self):
-        one, two = (os.path.join(self.folder.name, name) for name in ("one.srdf", "two.srdf"))
+        one, two = (self.path(name) for name in ("one.srdf", "two.srdf"))
         for path in (one, two):
             self.humanoid("--format", "srdf", "-o", path)
         with open(one) as a, open(two) as b:
@@ -509,7 +479,7 @@ class Report(unittest.TestCase):
         for text in (os.path.dirname(os.path.abspath(ROBOT)), os.path.dirname(wall)):
             self.assertNotIn(text, json.dumps(page))
         near = subprocess.run([PROGRAM, "hrp2_style/hrp2_style.urdf", "--samples", "20", "--format", "html"], capture_output=True, text=True,
-                              cwd=os.path.dirname(os.path.dirname(os.path.abspath(ROBOT))), env=dict(os.environ, XDG_CACHE_HOME=self.shared.name))
+                              cwd=os.path.dirname(os.path.dirname(os.path.abspath(ROBOT))), env=dict(os.environ, XDG_CACHE_HOME=self.shared))
         self.assertIn("hrp2_style/hrp2_style.urdf: ", near.stderr)
         self.assertTrue(any(warning.startswith("hrp2_style.urdf: ") for warning in page_data(near.stdout)["warnings"]))
         posed = page_data(self.run_tool(ROBOT + ".urdf", "--samples", "20", "--format", "html", "--pose", pose).stdout)
@@ -585,7 +555,7 @@ class Report(unittest.TestCase):
     def test_nothing_checked_is_not_clear(self):
         ball = '<sphere radius="0.1"/>'
         urdf = self.robot(link("a", ball) + link("b", ball) + joint("j", "a", "b"))
-        output = os.path.join(self.folder.name, "out")
+        output = self.path("out")
         for form in ("text", "json", "csv", "srdf", "html"):
             done = self.run_tool(urdf, "--format", form, "-o", output)
             self.assertEqual(done.returncode, 2, form)
@@ -640,7 +610,7 @@ class Report(unittest.TestCase):
     def test_what_cannot_be_read_exits_with_2_and_one_clear_message(self):
         bomb = '<!DOCTYPE r [<!ENTITY a "aa"><!ENTITY b "&a;&a;">]><robot name="x">&b;</robot>'
         cases = {
-            "no such file": os.path.join(self.folder.name, "nothing.urdf"),
+            "no such file": self.path("nothing.urdf"),
             "form a loop": self.put("loop.urdf", '<robot name="x">' + link("a") + link("b") + joint("j", "a", "b")
                                     + joint("k", "b", "a") + "</robot>"),
             "document type": self.put("bomb.urdf", bomb),
@@ -648,7 +618,7 @@ class Report(unittest.TestCase):
                               + link("a", '<mesh filename="package://nobody/a.stl"/>') + "</robot>"),
         }
         for words, path in cases.items():
-            output = os.path.join(self.folder.name, "out.json")
+            output = self.path("out.json")
             done = self.run_tool(path, "-o", output)
             self.assertEqual(done.returncode, 2, words)
             self.assertIn(words, done.stderr)
@@ -675,20 +645,14 @@ class Report(unittest.TestCase):
         self.assertEqual(done.returncode, 2, done.stderr)
         self.assertIn("49995000 pairs of 10000 bodies", done.stderr)
 
-    def box(self, name, side):
-        corners = [(x, y, z) for x in (-side, side) for y in (-side, side) for z in (-side, side)]
-        return self.put(name, "".join("v %g %g %g\n" % c for c in corners)
-                        + "f 1 2 4 3\nf 5 7 8 6\nf 1 5 6 2\nf 3 4 8 7\nf 1 3 7 5\nf 2 6 8 4\n")
-
     def test_meshes_are_compared_with_the_polyhedra_published_for_them(self):
-        mesh = '<mesh filename="file://%s"/>'
-        robot = self.robot(link("a", mesh % self.box("first.obj", 0.1)) + link("b", mesh % self.box("second.obj", 0.1))
+        robot = self.robot(link("a", self.boxes("first.obj", 0.1, (0, 0, 0))) + link("b", self.boxes("second.obj", 0.1, (0, 0, 0)))
                            + joint("j", "a", "b") + link("c", '<box size="1 1 1"/>') + joint("k", "b", "c", origin="9 0 0"))
-        os.mkdir(os.path.join(self.folder.name, "published"))
+        os.mkdir(self.path("published"))
         corners = [(x, y, z) for x in (-0.1, 0.1) for y in (-0.1, 0.1) for z in (-0.1, 0.101)]
         corners.append((0, 0, 0))  # inside, so it is no vertex
         self.put("published/first-ch.txt", "3\n%d 0 0\n" % len(corners) + "".join("%g %g %g\n" % c for c in corners))
-        arguments = [robot, "-r", "0.01", "--samples", "5", "--polyhedra", os.path.join(self.folder.name, "published")]
+        arguments = [robot, "-r", "0.01", "--samples", "5", "--polyhedra", self.path("published")]
         report = json.loads(self.run_tool(*arguments, "--format", "json").stdout)
         found = report["links"][0]["polyhedron"]
         self.assertEqual((found["vertices"], found["without_partner"], found["mesh_without_partner"]), (8, 4, 4))
@@ -699,14 +663,7 @@ class Report(unittest.TestCase):
         self.assertRegex(text, r"\na +999\.\d+ +8, +8 +4, +4\n")
 
     def boxes(self, name, side, *middles):
-        """One mesh of several boxes."""
-        text = ""
-        for k, middle in enumerate(middles):
-            corners = [[m + c for m, c in zip(middle, (x, y, z))] for x in (-side, side) for y in (-side, side) for z in (-side, side)]
-            text += "".join("v %.9g %.9g %.9g\n" % tuple(c) for c in corners)
-            for face in ((1, 2, 4, 3), (5, 7, 8, 6), (1, 5, 6, 2), (3, 4, 8, 7), (1, 3, 7, 5), (2, 6, 8, 4)):
-                text += "f " + " ".join(str(v + 8 * k) for v in face) + "\n"
-        return '<mesh filename="file://%s"/>' % self.put(name, text)
+        return '<mesh filename="file://%s"/>' % self.put(name, box_obj(side, *middles))
 
     def test_a_collision_is_explained_by_the_meshes(self):
         srdf, pose = self.put("none.srdf", '<robot name="small"/>'), self.put("pose.json", "{}")
@@ -744,9 +701,7 @@ class Report(unittest.TestCase):
         gate = self.boxes("gate.obj", 0.1, (-0.3, 0, 0), (0.3, 0, 0))
         return (self.robot(link("gate", gate) + link("box", self.boxes("box.obj", 0.05, (0, 0, 0)))
                            + link("far", self.boxes("far.obj", 0.1, (5, 0, 0), (5.4, 0, 0)))
-                           + '<joint name="slide" type="prismatic"><parent link="gate"/><child link="box"/><axis xyz="0 0 1"/>'
-                             '<limit lower="-1" upper="1" effort="1" velocity="1"/></joint>'
-                           + joint("turn", "gate", "far")),
+                           + joint("slide", "gate", "box", "prismatic", axis="0 0 1") + joint("turn", "gate", "far")),
                 "--srdf", self.put("none.srdf", '<robot name="small"/>'), "-r", "0.01", "--samples", "50")
 
     def test_parts_clear_a_pair_that_only_its_hulls_make_collide(self):
@@ -784,7 +739,7 @@ class Report(unittest.TestCase):
 
     def test_parts_come_from_the_cache_and_do_not_depend_on_the_number_of_threads(self):
         robot = (*self.slides_through_a_gate(), "--parts", "4", "--format", "json")
-        kept = os.path.join(self.folder.name, "cache", "fcl_stpbv")
+        kept = self.path("cache/fcl_stpbv")
 
         def report(*arguments):
             found = json.loads(self.run_tool(*robot, *arguments).stdout)
@@ -815,7 +770,7 @@ class Report(unittest.TestCase):
                 del found["summary"][name]
             return found
 
-        kept = os.path.join(self.folder.name, "cache", "fcl_stpbv")
+        kept = self.path("cache/fcl_stpbv")
         entries = lambda: {name: os.stat(os.path.join(kept, name)).st_mtime_ns for name in os.listdir(kept) if name.endswith(".pairs")}
         first = report(arm())
         (entry, written), = entries().items()
@@ -909,7 +864,7 @@ class Report(unittest.TestCase):
             self.assertEqual(self.run_tool(urdf, "-r", wrong).returncode, 2, wrong)
 
     def test_a_folder_without_a_polyhedron_of_the_robot_is_refused(self):
-        for folder in (self.folder.name, "/nowhere"):
+        for folder in (self.folder, "/nowhere"):
             done = self.humanoid("--polyhedra", folder)
             self.assertEqual(done.returncode, 2, done.stderr)
             self.assertIn("--polyhedra " + folder, done.stderr)

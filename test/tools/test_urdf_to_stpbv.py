@@ -4,37 +4,24 @@
 """
 import hashlib
 import json
-import os
 import pathlib
 import random
 import re
 import signal
 import subprocess
 import sys
-import tempfile
 import time
 import unittest
 from xml.etree import ElementTree
 
 import numpy as np
 
+from small_robot import box_obj
+from tool_case import ToolCase
+
 PROGRAM, REPORT = sys.argv[1:3]
 # The programs' mesh readers have single precision: 6e-8 for coordinates of up to 1 m, plus a margin.
 ROUNDING = 2e-7
-
-
-def box_obj(side, *middles):
-    """One mesh of several boxes, each of triangles that face outward."""
-    text = ""
-    for k, middle in enumerate(middles):
-        for x in (-side, side):
-            for y in (-side, side):
-                for z in (-side, side):
-                    text += "v %.9g %.9g %.9g\n" % (middle[0] + x, middle[1] + y, middle[2] + z)
-        for a, b, c, d in ((1, 2, 4, 3), (5, 7, 8, 6), (1, 5, 6, 2), (3, 4, 8, 7), (1, 3, 7, 5), (2, 6, 8, 4)):
-            for corners in ((a, b, c), (a, c, d)):
-                text += "f " + " ".join(str(v + 8 * k) for v in corners) + "\n"
-    return text
 
 
 def read_obj(path):
@@ -57,19 +44,16 @@ def outside(points, hull):
     return np.max(points @ normals.T - np.sum(normals * a, axis=1), axis=1)
 
 
-class Conversion(unittest.TestCase):
+class Conversion(ToolCase):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name).resolve()
+        super().setUp()
+        self.folder = pathlib.Path(self.folder)
         self.place = self.folder / "robots" / "gate"
         self.place.mkdir(parents=True)
         self.out = self.folder / "out"
-        self.environment = dict(os.environ, XDG_CACHE_HOME=str(self.folder / "cache"))
 
     def run_tool(self, *arguments, tool=PROGRAM, **options):
-        return subprocess.run([tool, *map(str, arguments)], capture_output=True, text=True, env=self.environment,
-                              timeout=120, **options)
+        return self.run_command(tool, *arguments, **options)
 
     def convert(self, *arguments):
         return self.run_tool(self.place / "gate.urdf", "-o", self.out, "--samples", "50", *arguments)
@@ -108,12 +92,6 @@ class Conversion(unittest.TestCase):
         """Data that show whether a file was written again."""
         return {str(p.relative_to(folder)): (p.stat().st_mtime_ns, p.stat().st_ino, p.read_bytes())
                 for p in folder.rglob("*") if p.is_file()}
-
-    def refused(self, done, *says):
-        self.assertEqual(done.returncode, 2, done)
-        self.assertEqual(done.stdout, "")
-        for words in says:
-            self.assertIn(words, done.stderr)
 
     def test_a_second_run_repeats_the_warnings(self):
         urdf = self.gate()
@@ -418,7 +396,7 @@ class Conversion(unittest.TestCase):
         cache = self.folder / "cache" / "fcl_stpbv"
         parts = lambda: {p.name: p.stat().st_mtime_ns for p in cache.glob("*.parts")} if cache.exists() else {}
         running = subprocess.Popen([PROGRAM, str(urdf), "-o", str(self.out), "--samples", "5", "--jobs", "2"],
-                                   env=self.environment, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+                                   env=self.environment(), stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
         until = time.monotonic() + 100
         while len(parts()) < count and running.poll() is None and time.monotonic() < until:
             time.sleep(0.01)
