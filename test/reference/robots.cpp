@@ -29,6 +29,15 @@ Problem problem(const TestRobot& robot, BaseMotion base) {
   return p;
 }
 
+Problem smoothProblem(const TestRobot& robot) {
+  Problem p = problem(robot);
+  requirePairs(p.pairs.size(), *p.model, "those of the SRDF and adjacent ones are left out");
+  RobotGeometry covered = *p.geometry;
+  coverPrimitives(p.pairs, covered);
+  p.geometry = std::make_shared<const RobotGeometry>(std::move(covered));
+  return p;
+}
+
 Body smoothBody(int link, const std::string& name, const StpBv::Ptr& volume, const Eigen::Isometry3d& pose) {
   Body body;
   body.link = link;

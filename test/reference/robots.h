@@ -39,6 +39,9 @@ struct Problem {
 };
 Problem problem(const TestRobot& robot, BaseMotion base = BaseMotion::fixed);
 
+/// problem() with smooth covers of the primitives where pairs need them (coverPrimitives()).
+Problem smoothProblem(const TestRobot& robot);
+
 /// A body of one volume in its link's frame.
 Body smoothBody(int link, const std::string& name, const StpBv::Ptr& volume,
                 const Eigen::Isometry3d& pose = Eigen::Isometry3d::Identity());

@@ -150,9 +150,7 @@ int main(int argc, char** argv) {
       "How often FCL's features map to the right patches, and what a query costs: a JSON object a line",
       "adapter_figures");
   int queries = 20000;
-  std::string folder;
   app.option("QUERIES", queries, "a shape and motion").whole(1).shown();
-  app.option("-o,--output", folder, "folder for adapter.json");
   const std::vector<std::pair<const char*, Cloud>> shapes{
       {"geodesic 12", geodesicSphere(0.2, 0)},
       {"geodesic 42", geodesicSphere(0.2, 1)},
@@ -163,18 +161,9 @@ int main(int argc, char** argv) {
       {"cylinder", cylinder(0.1, 0.4)},
       {"plate", plate(0.3, 0.2)},
       {"hull of 200", randomHull(200, {0.2, 0.15, 0.1}, 3)}};
-  return app.run(argc, argv, [&] {
-    benchmark::Measurement result;
-    result.name = "adapter";
-    benchmark::requirePlace(folder, result.name);
-    const auto add = [&](Json row) {
-      std::printf("%s\n", row.dump().c_str());
-      result.rows.push_back(std::move(row));
-    };
+  return benchmark::runBenchmark(app, argc, argv, "adapter", [&](benchmark::Measurement& result) {
     for (const auto& [name, cloud] : shapes)
-      for (const bool large : {true, false}) add(figures(name, cloud, queries, large));
-    for (const auto& [name, cloud] : shapes) add(sharesApart(name, cloud, queries, 3.8, 7.6));
-    if (!folder.empty()) benchmark::write(result, benchmark::commandLine(argc, argv), folder);
-    return 0;
+      for (const bool large : {true, false}) result.add(figures(name, cloud, queries, large));
+    for (const auto& [name, cloud] : shapes) result.add(sharesApart(name, cloud, queries, 3.8, 7.6));
   });
 }

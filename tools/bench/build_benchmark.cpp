@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstdio>
 #include <vector>
 
 #include "fcl_stpbv/volume/measure.h"
@@ -28,16 +27,12 @@ nlohmann::ordered_json row(const char* name, const Cloud& points, double R = 10)
   }
   std::sort(seconds.begin(), seconds.end());
   const double vertices = volume->vertexCount(), median = seconds[kRuns / 2];
-  nlohmann::ordered_json result{
-      {"cloud", name},
-      {"points", points.size()},
-      {"vertices", volume->vertexCount()},
-      {"seconds", significant(median, 3)},
-      {"us_per_v_log_v", significant(1e6 * median / (vertices * std::log2(vertices + 1)), 3)},
-      {"bytes_per_vertex", std::round(static_cast<double>(volume->memory()) / vertices)}};
-  std::printf("%s\n", result.dump().c_str());
-  std::fflush(stdout);
-  return result;
+  return {{"cloud", name},
+          {"points", points.size()},
+          {"vertices", volume->vertexCount()},
+          {"seconds", significant(median, 3)},
+          {"us_per_v_log_v", significant(1e6 * median / (vertices * std::log2(vertices + 1)), 3)},
+          {"bytes_per_vertex", std::round(static_cast<double>(volume->memory()) / vertices)}};
 }
 
 Cloud onSphere(int count) {
@@ -51,16 +46,11 @@ Cloud onSphere(int count) {
 
 int main(int argc, char** argv) {
   tools::Program app("Time and memory of building volumes: a JSON object a line", "build_benchmark");
-  std::string folder;
   bool quick = false;
-  app.option("-o,--output", folder, "folder for build.json");
   app.flag("--quick", quick, "clouds of up to 10,000 points only");
-  return app.run(argc, argv, [&] {
-    benchmark::Measurement result;
-    result.name = "build";
-    benchmark::requirePlace(folder, result.name);
+  return benchmark::runBenchmark(app, argc, argv, "build", [&](benchmark::Measurement& result) {
     const auto add = [&](const char* name, const Cloud& points, double R = 10) {
-      result.rows.push_back(row(name, points, R));
+      result.add(row(name, points, R));
     };
     for (int subdivisions = 1; subdivisions <= 5; ++subdivisions)
       add("geodesic sphere", geodesicSphere(0.2, subdivisions));
@@ -78,7 +68,5 @@ int main(int argc, char** argv) {
       for (Eigen::Vector3d& p : ball) p *= std::cbrt(random.uniform(0, 1));
       add("uniform in a ball", ball);
     }
-    if (!folder.empty()) benchmark::write(result, benchmark::commandLine(argc, argv), folder);
-    return 0;
   });
 }

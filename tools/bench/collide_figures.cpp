@@ -3,7 +3,6 @@
 #include <fcl/narrowphase/collision.h>
 
 #include <cmath>
-#include <cstdio>
 #include <utility>
 #include <vector>
 
@@ -77,9 +76,7 @@ int main(int argc, char** argv) {
   tools::Program app("Times of collide() beside fcl::collide() on the same hulls: a JSON object a line",
                      "collide_figures");
   int queries = 4200;
-  std::string folder;
   app.option("QUERIES", queries, "a body and nearest distance").whole(1).shown();
-  app.option("-o,--output", folder, "folder for collide.json");
   const std::vector<std::pair<const char*, Cloud>> bodies{
       {"geodesic 42", geodesicSphere(0.2, 1)},
       {"geodesic 642", geodesicSphere(0.2, 3)},
@@ -87,18 +84,9 @@ int main(int argc, char** argv) {
       {"cylinder", cylinder(0.1, 0.4)},
       {"plate", plate(0.3, 0.2, 0.01)},
       {"hull of 200", randomHull(200, {0.2, 0.15, 0.1}, 3)}};
-  return app.run(argc, argv, [&] {
-    benchmark::Measurement result;
-    result.name = "collide";
-    benchmark::requirePlace(folder, result.name);
+  return benchmark::runBenchmark(app, argc, argv, "collide", [&](benchmark::Measurement& result) {
     for (const bool contact : {true, false})
       for (const double nearest : {0.05, 0.15, 0.38})
-        for (const auto& [name, cloud] : bodies) {
-          Json row = figures(name, cloud, queries, nearest, contact);
-          std::printf("%s\n", row.dump().c_str());
-          result.rows.push_back(std::move(row));
-        }
-    if (!folder.empty()) benchmark::write(result, benchmark::commandLine(argc, argv), folder);
-    return 0;
+        for (const auto& [name, cloud] : bodies) result.add(figures(name, cloud, queries, nearest, contact));
   });
 }

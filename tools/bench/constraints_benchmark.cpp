@@ -10,6 +10,7 @@
 #include "fcl_stpbv/robot/constraints.h"
 #include "test/reference/random_walk.h"
 #include "tools/bench/measurement.h"
+#include "tools/bench/robot_argument.h"
 #include "tools/program.h"
 
 using namespace fcl_stpbv;
@@ -68,21 +69,12 @@ class PlainFcl {
 };
 
 struct Arguments {
-  std::string urdf, srdf, folder, name = "constraints";
-  std::vector<std::string> packagePath;
+  test::TestRobot robot;
   int configurations = 3000, turns = 3;
 };
 
-benchmark::Measurement measure(const Arguments& arguments) {
-  const auto model = std::make_shared<const RobotModel>(loadUrdf(arguments.urdf));
-  GeometryOptions options;
-  options.packagePath = arguments.packagePath;
-  const auto geometry = std::make_shared<const RobotGeometry>(loadGeometry(*model, options));
-  const auto kinematics = std::make_shared<const Kinematics>(model);
-  Srdf srdf;
-  if (!arguments.srdf.empty()) srdf = loadSrdf(arguments.srdf, *model);
-  const std::vector<CheckedPair> pairs =
-      selfPairs(*model, *geometry, arguments.srdf.empty() ? nullptr : &srdf);
+void measure(const Arguments& arguments, benchmark::Measurement& result) {
+  const auto [model, kinematics, geometry, pairs] = test::problem(arguments.robot);
   ConstraintOptions near;
   near.influence = 0.1;
   CollisionConstraints all(kinematics, geometry, pairs), some(kinematics, geometry, pairs, near);
@@ -105,8 +97,6 @@ benchmark::Measurement measure(const Arguments& arguments) {
        [&](const Eigen::VectorXd& q) { all.hessianVector(q, weights, v, out); }},
       {"`fcl::distance` of the hulls", "small", std::ref(plain)},
       {"`fcl::distance` of the hulls", "large", std::ref(plain)}};
-  benchmark::Measurement result;
-  result.name = arguments.name;
   result.about = {
       {"robot", model->name}, {"pairs", all.rows()}, {"configurations", arguments.configurations}};
   for (const Way& way : ways)
@@ -118,7 +108,7 @@ benchmark::Measurement measure(const Arguments& arguments) {
       result.rows[k]["us_p50"].push_back(significant(us[us.size() / 2], 3));
       result.rows[k]["us_p99"].push_back(significant(us[us.size() * 99 / 100], 3));
     }
-  return result;
+  result.print();
 }
 
 }  // namespace
@@ -127,19 +117,9 @@ int main(int argc, char** argv) {
   tools::Program app("Time of d(q), J(q) and second derivatives of all pairs of a robot, beside FCL",
                      "constraints_benchmark");
   Arguments arguments;
-  app.option("ROBOT", arguments.urdf, "the robot's URDF").required();
-  app.option("--srdf", arguments.srdf, "whose pairs are left out; else adjacent ones are");
-  app.option("--package-path", arguments.packagePath, "folder that holds packages").repeated();
+  benchmark::describeRobot(app, arguments.robot);
   app.option("--configurations", arguments.configurations, "of each random walk").whole(1).shown();
   app.option("--turns", arguments.turns, "walks of each way, in turns").whole(1).shown();
-  app.option("-o,--output", arguments.folder, "folder for the JSON file");
-  app.option("--name", arguments.name, "its name").shown();
-  return app.run(argc, argv, [&] {
-    benchmark::requirePlace(arguments.folder, arguments.name);
-    const benchmark::Measurement result = measure(arguments);
-    for (const auto& row : result.rows) std::printf("%s\n", row.dump().c_str());
-    if (!arguments.folder.empty())
-      benchmark::write(result, benchmark::commandLine(argc, argv), arguments.folder);
-    return 0;
-  });
+  return benchmark::runBenchmark(app, argc, argv, "constraints",
+                                 [&](benchmark::Measurement& result) { measure(arguments, result); });
 }

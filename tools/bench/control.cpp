@@ -58,11 +58,9 @@ struct Arguments {
   bool all = false, advise = false;
   LoopOptions loop;
   std::vector<std::string> scenarios = benchmark::scenarios();
-  std::string name = "control";
 };
 
-Measurement measure(const Arguments& a) {
-  Measurement result;
+void measure(const Arguments& a, Measurement& result) {
   result.about = {{"runs", a.runs}, {"acceleration", a.loop.acceleration}, {"noise", a.loop.noise}};
   std::printf("%-6s %-32s %9s %9s %8s %9s %8s %8s %9s %9s %8s %7s %5s\n", "", "medians (worst: *)", "peak",
               "peak*", "rms", "jerk", "rev/s", "switch/s", "clear mm", "clear* mm", "track mm", "us", "fail");
@@ -91,7 +89,6 @@ Measurement measure(const Arguments& a) {
                              {"us", significant(m.solve, 3)},
                              {"failed", w.failed}});
     }
-  return result;
 }
 
 }  // namespace
@@ -101,7 +98,6 @@ int main(int argc, char** argv) {
       "Peak accelerations of a controller whose collision rows come from hulls, manifolds and STP-BVs.",
       "control_bench");
   Arguments a;
-  std::string output;
   app.option("--runs", a.runs, "runs a row, each with its own path and start").whole(1).shown();
   app.option("--scenario", a.scenarios, "only these").oneOf(scenarios());
   app.flag("--all", a.all, "every r and R, not only r = 10 mm with R = 1 and 10 m");
@@ -109,13 +105,7 @@ int main(int argc, char** argv) {
            "radii advised for some allowed accelerations, and what runs with them measure");
   app.flag("--acceleration", a.loop.acceleration, "tasks at acceleration level");
   app.flag("--noise", a.loop.noise, "with encoder steps, a tick of delay and a model error of 1 %");
-  app.option("-o,--output", output, "folder for NAME.json");
-  app.option("--name", a.name, "of the file").shown();
-  return app.run(argc, argv, [&] {
-    requirePlace(output, a.name);
-    Measurement result = a.advise ? measureAdvice(a.scenarios, a.runs) : measure(a);
-    result.name = a.name;
-    if (!output.empty()) write(result, commandLine(argc, argv), output);
-    return 0;
+  return runBenchmark(app, argc, argv, "control", [&](Measurement& result) {
+    a.advise ? measureAdvice(a.scenarios, a.runs, result) : measure(a, result);
   });
 }

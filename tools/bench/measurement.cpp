@@ -37,6 +37,31 @@ std::string compiler() {
 
 }  // namespace
 
+void Measurement::add(nlohmann::ordered_json row) {
+  std::printf("%s\n", row.dump().c_str());
+  std::fflush(stdout);
+  rows.push_back(std::move(row));
+}
+
+void Measurement::print() const {
+  for (const auto& row : rows) std::printf("%s\n", row.dump().c_str());
+}
+
+int runBenchmark(tools::Program& program, int argc, char** argv, const std::string& name,
+                 const std::function<void(Measurement&)>& measure) {
+  Measurement result;
+  result.name = name;
+  std::string folder;
+  program.option("-o,--output", folder, "folder for the JSON file");
+  program.option("--name", result.name, "its name").shown();
+  return program.run(argc, argv, [&] {
+    requirePlace(folder, result.name);
+    measure(result);
+    if (!folder.empty()) write(result, commandLine(argc, argv), folder);
+    return 0;
+  });
+}
+
 std::string commandLine(int argc, char** argv) {
   std::string line = std::filesystem::path(argv[0]).filename().string();
   for (int i = 1; i < argc; ++i) {

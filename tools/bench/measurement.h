@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "tools/program.h"
+
 namespace fcl_stpbv::benchmark {
 
 struct Measurement {
@@ -17,7 +19,17 @@ struct Measurement {
   nlohmann::ordered_json about = nlohmann::ordered_json::object();
   std::vector<nlohmann::ordered_json> rows;  ///< objects with the same keys
   double spread = 0;  ///< largest relative difference of repeated blocks; 0 if nothing was timed
+
+  /// Keeps a row, and prints it at once as a line of JSON.
+  void add(nlohmann::ordered_json row);
+  /// Prints all rows as add() does.
+  void print() const;
 };
+
+/// Runs a benchmark: adds -o and --name to its options, checks that NAME.json can be written, calls
+/// `measure`, and writes the measurement that it has filled. Without -o nothing is written.
+int runBenchmark(tools::Program& program, int argc, char** argv, const std::string& name,
+                 const std::function<void(Measurement&)>& measure);
 
 /// The program's name and its arguments, without the folder of the output.
 std::string commandLine(int argc, char** argv);

@@ -12,7 +12,6 @@
 #include <fcl/narrowphase/distance.h>
 
 #include <cmath>
-#include <cstdio>
 #include <memory>
 #include <string>
 #include <utility>
@@ -137,13 +136,8 @@ int main(int argc, char** argv) {
   tools::Program app("Times of queries of bodies against meshes beside FCL's own: a JSON object a line",
                      "mesh_figures");
   int queries = 100;
-  std::string folder;
   app.option("QUERIES", queries, "a body and a place").whole(1).shown();
-  app.option("-o,--output", folder, "folder for meshes.json");
-  return app.run(argc, argv, [&] {
-    benchmark::Measurement result;
-    result.name = "meshes";
-    benchmark::requirePlace(folder, result.name);
+  return benchmark::runBenchmark(app, argc, argv, "meshes", [&](benchmark::Measurement& result) {
     const auto measure = [&](const std::string& surface, const Geometry& geometry, const Geometry& mesh,
                              const char* place, const benchmark::Poses& poses) {
       const std::vector<std::pair<const char*, Geometry>> bodies{
@@ -157,8 +151,7 @@ int main(int argc, char** argv) {
         for (const auto& [name, body] : bodies) {
           Json row{{"surface", surface}, {"body", name}, {"place", place}, {"asked", asked}};
           row.update(figures(body, geometry, poses, asked));
-          std::printf("%s\n", row.dump().c_str());
-          result.rows.push_back(std::move(row));
+          result.add(std::move(row));
         }
     };
     for (const auto& [n, name] : {std::pair(10, "360 triangles"), {100, "39,600 triangles"}}) {
@@ -171,7 +164,5 @@ int main(int argc, char** argv) {
     measure("octree", map, mesh, "meets", posesOver(0.0, queries));
     measure("octree", map, mesh, "apart", posesOver(1.5, queries));
 #endif
-    if (!folder.empty()) benchmark::write(result, benchmark::commandLine(argc, argv), folder);
-    return 0;
   });
 }

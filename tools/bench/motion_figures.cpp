@@ -4,10 +4,10 @@
 #include <cstdio>
 #include <exception>
 
-#include "fcl_stpbv/robot/checked_pairs.h"
 #include "fcl_stpbv/robot/constraints.h"
 #include "fcl_stpbv/robot/motion_check.h"
 #include "test/reference/arguments.h"
+#include "test/reference/robots.h"
 #include "test/reference/shapes.h"
 #include "test/reference/source_folder.h"
 #include "tools/bench/measurement.h"
@@ -18,27 +18,7 @@ using Eigen::VectorXd;
 
 namespace {
 
-struct Robot {
-  std::shared_ptr<const RobotModel> model;
-  std::shared_ptr<const Kinematics> kinematics;
-  std::shared_ptr<const RobotGeometry> geometry;
-  std::vector<CheckedPair> pairs;
-};
-
-Robot load(const std::string& urdf, const std::string& srdfFile) {
-  Robot robot;
-  robot.model = std::make_shared<const RobotModel>(loadUrdf(urdf));
-  RobotGeometry geometry = loadGeometry(*robot.model);
-  Srdf srdf;
-  if (!srdfFile.empty()) srdf = loadSrdf(srdfFile, *robot.model);
-  robot.pairs = selfPairs(*robot.model, geometry, srdfFile.empty() ? nullptr : &srdf);
-  coverPrimitives(robot.pairs, geometry);
-  robot.geometry = std::make_shared<const RobotGeometry>(std::move(geometry));
-  robot.kinematics = std::make_shared<const Kinematics>(robot.model);
-  return robot;
-}
-
-VectorXd freePosture(const Robot& robot, MotionCheck& check, test::Random& random) {
+VectorXd freePosture(const test::Problem& robot, MotionCheck& check, test::Random& random) {
   const VectorXd &low = robot.kinematics->lower(), &high = robot.kinematics->upper();
   for (;;) {
     VectorXd q(low.size());
@@ -48,7 +28,7 @@ VectorXd freePosture(const Robot& robot, MotionCheck& check, test::Random& rando
 }
 
 /// Moves each joint by 5 % of its range, up or down, within the limits.
-VectorXd moved(const Robot& robot, const VectorXd& q, test::Random& random) {
+VectorXd moved(const test::Problem& robot, const VectorXd& q, test::Random& random) {
   const VectorXd &low = robot.kinematics->lower(), &high = robot.kinematics->upper();
   VectorXd next = q;
   for (Eigen::Index k = 0; k < q.size(); ++k) {
@@ -65,7 +45,7 @@ void report(const char* what, std::vector<double> times) {
                 benchmark::percentile(times, 1));
 }
 
-int run(int edges, int samples, int seed, const Robot& robot) {
+int run(int edges, int samples, int seed, const test::Problem& robot) {
   MotionCheck check(robot.kinematics, robot.geometry, robot.pairs);
   CollisionConstraints rows(robot.kinematics, robot.geometry, robot.pairs);
   test::Random random(static_cast<std::uint64_t>(seed));
@@ -114,7 +94,8 @@ int main(int argc, char** argv) {
   const std::string urdf = arguments.text(4, folder + ".urdf");
   try {
     return run(arguments.number(1, 1000), arguments.number(2, 0, 0), arguments.number(3, 1),
-               load(urdf, arguments.text(5, urdf == folder + ".urdf" ? folder + ".srdf" : "")));
+               test::smoothProblem(
+                   {"", urdf, arguments.text(5, urdf == folder + ".urdf" ? folder + ".srdf" : ""), {}}));
   } catch (const std::exception& error) {
     std::fprintf(stderr, "motion_figures: %s\n", error.what());
     return 2;

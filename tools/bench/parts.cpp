@@ -38,7 +38,7 @@ struct Arguments {
   std::vector<int> counts{2, 4, 8};
   double effort = 1;
   bool hacd = true;
-  std::string robot, folder, name = "parts";
+  std::string robot;
 };
 
 double excessOf(const Clouds& clouds, const MeshSolid& solid) {
@@ -132,7 +132,7 @@ class Tick {
   std::set<LinkPair> links_;
 };
 
-benchmark::Measurement ofRobot(const Arguments& a) {
+void measureRobot(const Arguments& a, benchmark::Measurement& result) {
   const Tick tick(a);
   struct Link {
     std::size_t body;
@@ -147,7 +147,6 @@ benchmark::Measurement ofRobot(const Arguments& a) {
     if (mesh.triangles.empty() || hullExcess(mesh.vertices, MeshSolid(mesh)).upper < kConcave) continue;
     concave.push_back({i, body.name, std::move(mesh)});
   }
-  benchmark::Measurement result;
   nlohmann::ordered_json ticks = nlohmann::ordered_json::array();
   const auto add = [&](const std::string& method, int count, const std::map<std::size_t, Clouds>& parts) {
     nlohmann::ordered_json one = {{"method", method}, {"most", count}};
@@ -164,18 +163,15 @@ benchmark::Measurement ofRobot(const Arguments& a) {
       add(method, count, parts);
     }
   result.about = {{"concave_links", concave.size()}, {"concave_beyond", kConcave}, {"ticks", ticks}};
-  return result;
 }
 
-benchmark::Measurement ofMeshes(const Arguments& a) {
-  benchmark::Measurement result;
+void measureMeshes(const Arguments& a, benchmark::Measurement& result) {
   for (const std::string& file : a.meshes) {
     const TriangleMesh mesh = loadMesh(file);
     for (const int count : a.counts)
       for (const std::string& method : methodsOf(a))
         split(std::filesystem::path(file).stem(), mesh, method, count, a.effort, result.rows);
   }
-  return result;
 }
 
 }  // namespace
@@ -194,14 +190,8 @@ int main(int argc, char** argv) {
   app.option("--parts", a.counts, "numbers of parts").whole(1, 1000);
   app.option("--effort", a.effort, "of the search").number(1e-3, 1e6);
   app.flag("!--no-hacd", a.hacd, "ours alone");
-  app.option("-o,--output", a.folder, "folder for the JSON file");
-  app.option("--name", a.name, "its name").shown();
-  return app.run(argc, argv, [&] {
-    benchmark::requirePlace(a.folder, a.name);
+  return benchmark::runBenchmark(app, argc, argv, "parts", [&](benchmark::Measurement& result) {
     if (a.robot.empty() && a.meshes.empty()) throw Error("nothing to split: give mesh files, or --robot");
-    benchmark::Measurement result = a.robot.empty() ? ofMeshes(a) : ofRobot(a);
-    result.name = a.name;
-    if (!a.folder.empty()) benchmark::write(result, benchmark::commandLine(argc, argv), a.folder);
-    return 0;
+    a.robot.empty() ? measureMeshes(a, result) : measureRobot(a, result);
   });
 }

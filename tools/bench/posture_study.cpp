@@ -156,9 +156,7 @@ void printTable(const std::vector<Row>& rows, int starts) {
   }
 }
 
-benchmark::Measurement measurementOf(const std::vector<Row>& rows, int starts) {
-  benchmark::Measurement result;
-  result.name = "posture_study";
+void fill(benchmark::Measurement& result, const std::vector<Row>& rows, int starts) {
   result.about = {{"tasks", rows.size()}, {"starts", starts}};
   for (const Row& row : rows)
     for (std::size_t m = 0; m < kCount; ++m) {
@@ -175,7 +173,6 @@ benchmark::Measurement measurementOf(const std::vector<Row>& rows, int starts) {
                              {"seconds", benchmark::significant(r.posture.seconds, 3)},
                              {"cost", benchmark::significant(r.posture.cost, 6)}});
     }
-  return result;
 }
 
 }  // namespace
@@ -184,20 +181,15 @@ int main(int argc, char** argv) {
   Program app("Postures for random tasks, with and without continuous gradients", "posture_study");
   int tasks = 240, starts = 5, searchStarts = 100;
   double tolerance = SolverOptions().costTolerance;
-  std::string folder;
   app.option("--tasks", tasks, "Random tasks").shown().whole(1, 100000);
   app.option("--starts", starts, "Starts of each").shown().whole(1, 1000);
   app.option("--search-starts", searchStarts, "Starts before a task counts as infeasible").whole(1).shown();
   app.option("--tolerance", tolerance, "Relative change of the cost to stop at").number(0, 1).shown();
-  app.option("-o,--output", folder, "Folder for posture_study.json");
-  return app.run(argc, argv, [&] {
-    benchmark::requirePlace(folder, "posture_study");
+  return benchmark::runBenchmark(app, argc, argv, "posture_study", [&](benchmark::Measurement& result) {
     Study study(starts, searchStarts, tolerance);
     std::vector<Row> rows;
     for (int seed = 0; seed < tasks; ++seed) rows.push_back(study.run(static_cast<std::uint64_t>(seed)));
     printTable(rows, starts);
-    if (!folder.empty())
-      benchmark::write(measurementOf(rows, starts), benchmark::commandLine(argc, argv), folder);
-    return 0;
+    fill(result, rows, starts);
   });
 }

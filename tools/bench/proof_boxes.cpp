@@ -82,13 +82,13 @@ void timeList(std::shared_ptr<const Kinematics> kinematics, std::shared_ptr<cons
 }
 
 struct Arguments {
-  std::string urdf, folder, name = "proof_boxes", command;
+  std::string urdf;
   std::vector<std::string> packagePath;
   long before = 300000, boxes = 20000;
   int descents = 500;
 };
 
-int run(const Arguments& a) {
+void measure(const Arguments& a, benchmark::Measurement& result) {
   const auto robot = std::make_shared<const RobotModel>(loadUrdf(a.urdf));
   GeometryOptions options;
   options.packagePath = a.packagePath;
@@ -143,9 +143,6 @@ int run(const Arguments& a) {
       "times fewer, %.0f times faster; %.0f us a box\n",
       fewer.size(), benchmark::median(fewer), fewerOfMany.size(), benchmark::median(fewerOfMany),
       benchmark::median(faster), benchmark::median(perBox));
-  if (a.folder.empty()) return 0;
-  benchmark::Measurement result;
-  result.name = a.name;
   result.about = {{"robot", robot->name},
                   {"pairs", pairs},
                   {"most_boxes_of_levers", a.before},
@@ -159,8 +156,6 @@ int run(const Arguments& a) {
                   {"us_a_box", std::round(benchmark::median(perBox))}};
   for (const long boxes : before) result.rows.push_back({{"bound", "levers"}, {"boxes", boxes}});
   for (const long boxes : now) result.rows.push_back({{"bound", "planes"}, {"boxes", boxes}});
-  benchmark::write(result, a.command, a.folder);
-  return 0;
 }
 
 }  // namespace
@@ -173,11 +168,6 @@ int main(int argc, char** argv) {
   app.option("--before", a.before, "Most boxes of the levers for a pair").whole(1).shown();
   app.option("--boxes", a.boxes, "Most boxes of the planes for a pair").whole(1).shown();
   app.option("--descents", a.descents, "Random descents for a pair before that").whole().shown();
-  app.option("-o,--output", a.folder, "Folder for the JSON file");
-  app.option("--name", a.name, "Its name").shown();
-  a.command = benchmark::commandLine(argc, argv);
-  return app.run(argc, argv, [&] {
-    benchmark::requirePlace(a.folder, a.name);
-    return run(a);
-  });
+  return benchmark::runBenchmark(app, argc, argv, "proof_boxes",
+                                 [&](benchmark::Measurement& result) { measure(a, result); });
 }

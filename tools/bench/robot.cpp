@@ -15,6 +15,7 @@
 #include "tools/bench/measurement.h"
 #include "tools/bench/robot/peer.h"
 #include "tools/bench/robot/sizes.h"
+#include "tools/bench/robot_argument.h"
 #include "tools/program.h"
 
 using namespace fcl_stpbv;
@@ -26,8 +27,7 @@ using Row = nlohmann::ordered_json;
 namespace {
 
 struct Arguments {
-  std::string urdf, srdf, folder, name = "robot";
-  std::vector<std::string> packagePath;
+  test::TestRobot robot;
   int configurations = 2000, turns = 5;
   bool json = false, sizes = false;
 };
@@ -51,25 +51,9 @@ std::function<long(const MatrixXd&)> each(Ask ask) {
 
 using Q = Eigen::Ref<const VectorXd>;
 
-PosedModel loadRobot(const Arguments& arguments) {
-  PosedModel robot;
-  robot.model = std::make_shared<const RobotModel>(loadUrdf(arguments.urdf));
-  GeometryOptions options;
-  options.packagePath = arguments.packagePath;
-  RobotGeometry bodies = loadGeometry(*robot.model, options);
-  Srdf srdf;
-  if (!arguments.srdf.empty()) srdf = loadSrdf(arguments.srdf, *robot.model);
-  robot.pairs = selfPairs(*robot.model, bodies, arguments.srdf.empty() ? nullptr : &srdf);
-  requirePairs(robot.pairs.size(), *robot.model, "those of the SRDF and adjacent ones are left out");
-  coverPrimitives(robot.pairs, bodies);
-  robot.geometry = std::make_shared<const RobotGeometry>(std::move(bodies));
-  robot.kinematics = std::make_shared<const Kinematics>(robot.model);
-  return robot;
-}
-
 class Bench {
  public:
-  Bench(const Arguments& arguments, PosedModel robot) : arguments_(arguments), robot_(std::move(robot)) {
+  Bench(const Arguments& arguments, test::Problem robot) : arguments_(arguments), robot_(std::move(robot)) {
     checker_ = std::make_unique<CollisionChecker>(robot_.kinematics, robot_.geometry, robot_.pairs);
     rows_ = std::make_unique<CollisionConstraints>(robot_.kinematics, robot_.geometry, robot_.pairs);
     fcl_ = fclPeer(robot_);
@@ -192,7 +176,7 @@ class Bench {
   }
 
   Arguments arguments_;
-  PosedModel robot_;
+  test::Problem robot_;
   std::unique_ptr<CollisionChecker> checker_;
   std::unique_ptr<CollisionConstraints> rows_;
   std::unique_ptr<Peer> fcl_, gapStop_, bullet_;
@@ -200,19 +184,17 @@ class Bench {
 };
 
 /// All ways for the whole robot, or some of them against the numbers of pairs and of vertices.
-Measurement measure(const Arguments& arguments) {
-  const PosedModel robot = loadRobot(arguments);
-  Measurement result;
-  result.name = arguments.name;
+void measure(const Arguments& arguments, Measurement& result) {
+  const test::Problem robot = test::smoothProblem(arguments.robot);
   result.about = {{"robot", robot.model->name},
                   {"pairs", robot.pairs.size()},
                   {"configurations", arguments.configurations},
                   {"turns", arguments.turns}};
   if (!arguments.sizes) {
     Bench(arguments, robot).measure(true, Row::object(), result);
-    return result;
+    return;
   }
-  const auto add = [&](const char* varied, const PosedModel& part) {
+  const auto add = [&](const char* varied, const test::Problem& part) {
     const Row about{
         {"varied", varied}, {"pairs", part.pairs.size()}, {"vertices", std::round(meanVertices(part))}};
     Bench(arguments, part).measure(false, about, result);
@@ -222,7 +204,13 @@ Measurement measure(const Arguments& arguments) {
     if (pairs <= robot.pairs.size()) add("pairs", withPairs(robot, pairs));
   for (int subdivisions = 0; subdivisions <= 3; ++subdivisions)
     add("vertices", withEllipsoids(withPairs(robot, std::min(kPairs, robot.pairs.size())), subdivisions));
-  return result;
+}
+
+void printAsOne(const Measurement& result) {
+  nlohmann::ordered_json all = result.about;
+  all["spread"] = significant(result.spread, 2);
+  all["rows"] = result.rows;
+  std::printf("%s\n", all.dump(1).c_str());
 }
 
 }  // namespace
@@ -231,28 +219,14 @@ int main(int argc, char** argv) {
   tools::Program app("A robot's verdicts, distances and batches beside FCL and Bullet, us a configuration",
                      "robot_bench");
   Arguments arguments;
-  app.option("ROBOT", arguments.urdf, "the robot's URDF").required();
-  app.option("--srdf", arguments.srdf, "whose pairs are left out; else adjacent ones are");
-  app.option("--package-path", arguments.packagePath, "folder that holds packages").repeated();
+  describeRobot(app, arguments.robot);
   app.option("--configurations", arguments.configurations, "of each random walk").whole(1).shown();
   app.option("--turns", arguments.turns, "of all ways").whole(1).shown();
   app.flag("--json", arguments.json, "print one JSON object instead of lines");
   app.flag("--sizes", arguments.sizes,
            "times against the number of pairs, then with ellipsoids of 12 to 642 vertices");
-  app.option("-o,--output", arguments.folder, "folder for the JSON file");
-  app.option("--name", arguments.name, "its name").shown();
-  return app.run(argc, argv, [&] {
-    requirePlace(arguments.folder, arguments.name);
-    const Measurement result = measure(arguments);
-    if (arguments.json) {
-      nlohmann::ordered_json all = result.about;
-      all["spread"] = significant(result.spread, 2);
-      all["rows"] = result.rows;
-      std::printf("%s\n", all.dump(1).c_str());
-    } else {
-      for (const auto& row : result.rows) std::printf("%s\n", row.dump().c_str());
-    }
-    if (!arguments.folder.empty()) write(result, commandLine(argc, argv), arguments.folder);
-    return 0;
+  return runBenchmark(app, argc, argv, "robot", [&](Measurement& result) {
+    measure(arguments, result);
+    arguments.json ? printAsOne(result) : result.print();
   });
 }

@@ -16,6 +16,7 @@
 #include "fcl_stpbv/robot/detail_choice.h"
 #include "fcl_stpbv/robot/search_room.h"
 #include "tools/bench/measurement.h"
+#include "tools/bench/robot_argument.h"
 #include "tools/program.h"
 
 namespace {
@@ -26,8 +27,7 @@ using benchmark::significant;
 using Geometry = std::shared_ptr<const RobotGeometry>;
 
 struct Arguments {
-  std::string urdf, srdf, folder, name = "scene";
-  std::vector<std::string> packagePath;
+  test::TestRobot robot;
   std::vector<double> budgets{0.05, 0.02};
   int samples = 1000, threads = 1;
   double clearance = 0;
@@ -52,7 +52,7 @@ Scene makeScene(const Arguments& arguments, const std::shared_ptr<const RobotMod
                 const RobotGeometry& bodies) {
   Scene scene{std::make_shared<const Kinematics>(robot), {}, {}};
   std::optional<Srdf> srdf;
-  if (!arguments.srdf.empty()) srdf = loadSrdf(arguments.srdf, *robot);
+  if (!arguments.robot.srdf.empty()) srdf = loadSrdf(arguments.robot.srdf, *robot);
   std::set<LinkPair> links;
   for (const CheckedPair& pair : selfPairs(*robot, bodies, srdf ? &*srdf : nullptr))
     links.insert({bodies.bodies[at(pair.body)].link, bodies.bodies[at(pair.other)].link});
@@ -166,10 +166,10 @@ void compare(const Verdicts& finest, std::size_t pairs, const Verdicts& found, n
   row["others_differ"] = others;
 }
 
-benchmark::Measurement measure(const Arguments& arguments) {
-  const auto robot = std::make_shared<const RobotModel>(loadUrdf(arguments.urdf));
+void measure(const Arguments& arguments, benchmark::Measurement& result) {
+  const auto robot = std::make_shared<const RobotModel>(loadUrdf(arguments.robot.urdf));
   GeometryOptions options;
-  options.packagePath = arguments.packagePath;
+  options.packagePath = arguments.robot.packagePath;
   options.threads = arguments.threads;
   const std::vector<Geometry> levels = loadLevels(*robot, options, arguments.budgets);
   const Scene scene = makeScene(arguments, robot, *levels.back());
@@ -178,8 +178,6 @@ benchmark::Measurement measure(const Arguments& arguments) {
   const std::vector<Eigen::VectorXd> others =
       randomConfigurations(*scene.kinematics, *levels.back(), arguments.samples, 2);
 
-  benchmark::Measurement result;
-  result.name = arguments.name;
   std::vector<Verdicts> models;
   const auto add = [&](const std::string& name, const Geometry& geometry) {
     result.rows.emplace_back();
@@ -219,7 +217,8 @@ benchmark::Measurement measure(const Arguments& arguments) {
                   {"seconds", significant(seconds, 2)}};
   for (std::size_t i = 0; i < models.size(); ++i)
     compare(finest, scene.pairs.size(), models[i], result.rows[i]);
-  return result;
+  std::printf("%s\n", result.about.dump().c_str());
+  result.print();
 }
 
 }  // namespace
@@ -228,20 +227,9 @@ int main(int argc, char** argv) {
   tools::Program app("What models of a robot cost and show, from coarse volumes to convex parts",
                      "scene_models");
   Arguments arguments;
-  app.option("ROBOT", arguments.urdf, "the robot's URDF").required();
-  app.option("--srdf", arguments.srdf, "whose pairs are left out; else adjacent ones are");
-  app.option("--package-path", arguments.packagePath, "folder that holds packages").repeated();
+  benchmark::describeRobot(app, arguments.robot);
   app.option("--samples", arguments.samples, "random configurations").whole(1).shown();
   app.option("--jobs", arguments.threads, "threads that share the work").whole(1).shown();
-  app.option("-o,--output", arguments.folder, "folder for the JSON file");
-  app.option("--name", arguments.name, "its name").shown();
-  return app.run(argc, argv, [&] {
-    benchmark::requirePlace(arguments.folder, arguments.name);
-    const benchmark::Measurement result = measure(arguments);
-    std::printf("%s\n", result.about.dump().c_str());
-    for (const auto& row : result.rows) std::printf("%s\n", row.dump().c_str());
-    if (!arguments.folder.empty())
-      benchmark::write(result, benchmark::commandLine(argc, argv), arguments.folder);
-    return 0;
-  });
+  return benchmark::runBenchmark(app, argc, argv, "scene",
+                                 [&](benchmark::Measurement& result) { measure(arguments, result); });
 }

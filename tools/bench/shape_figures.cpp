@@ -11,7 +11,6 @@
 #include <fcl/narrowphase/distance.h>
 
 #include <cmath>
-#include <cstdio>
 #include <memory>
 #include <string>
 #include <utility>
@@ -79,9 +78,7 @@ int main(int argc, char** argv) {
   tools::Program app("Times of queries of a body and a simple shape beside FCL's own: a JSON object a line",
                      "shape_figures");
   int queries = 2100;
-  std::string folder;
   app.option("QUERIES", queries, "a body, a shape and a nearest distance").whole(1).shown();
-  app.option("-o,--output", folder, "folder for shapes.json");
   const auto smooth = [](const Cloud& cloud) {
     return std::make_shared<StpBvGeometry>(StpBv::build(cloud, {0.01, 10.0}));
   };
@@ -104,20 +101,13 @@ int main(int argc, char** argv) {
       {"half space", std::make_shared<fcl::Halfspaced>(Eigen::Vector3d::UnitZ(), -0.3)}};
   const std::vector<std::pair<std::string, double>> questions{
       {"distance", 0.45}, {"yes or no", 0.45}, {"yes or no", 0.15}, {"contact", 0.45}, {"contact", 0.15}};
-  return app.run(argc, argv, [&] {
-    benchmark::Measurement result;
-    result.name = "shapes";
-    benchmark::requirePlace(folder, result.name);
+  return benchmark::runBenchmark(app, argc, argv, "shapes", [&](benchmark::Measurement& result) {
     for (const Named& body : bodies)
       for (const auto& [asked, nearest] : questions)
         for (const Named& shape : shapes) {
           const bool unbounded = shape.second->getNodeType() == fcl::GEOM_HALFSPACE;
           if (unbounded && asked == "distance") continue;  // FCL dereferences a null pointer
-          Json row = figures(body, shape, queries, nearest, asked);
-          std::printf("%s\n", row.dump().c_str());
-          result.rows.push_back(std::move(row));
+          result.add(figures(body, shape, queries, nearest, asked));
         }
-    if (!folder.empty()) benchmark::write(result, benchmark::commandLine(argc, argv), folder);
-    return 0;
   });
 }

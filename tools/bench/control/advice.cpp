@@ -39,12 +39,11 @@ Outcome worst(const std::string& scenario, const Method& method, int runs) {
 
 }  // namespace
 
-Measurement measureAdvice(const std::vector<std::string>& scenarios, int runs) {
+void measureAdvice(const std::vector<std::string>& scenarios, int runs, Measurement& result) {
   constexpr double kAllowed = 4;                                                    // m/s^2
   constexpr double kClearances[] = {0.5e-3, 1e-3, 2e-3, 4e-3, 8e-3, 16e-3, 32e-3};  // m
   // Because with other radii the robot moves slightly differently than in the first runs.
   constexpr double kSpare = 1.25;
-  Measurement result;
   result.about = {{"runs", runs}};
   for (const std::string& scenario : scenarios) {
     const Scene scene = makeScene(scenario, 0);
@@ -92,7 +91,6 @@ Measurement measureAdvice(const std::vector<std::string>& scenarios, int runs) {
                              {"peak", significant(o.peak, 3)}});
     }
   }
-  return result;
 }
 
 }  // namespace fcl_stpbv::benchmark

@@ -8,9 +8,9 @@
 
 namespace fcl_stpbv::benchmark {
 
-/// For each scenario and each of some clearances: the advised radii of the held solid, and the measurements
-/// of runs with them. The motion for the advice is that of first runs, plus a quarter.
+/// Adds a row for each scenario and each of some clearances: the advised radii of the held solid, and the
+/// measurements of runs with them. The motion for the advice is that of first runs, plus a quarter.
 /// @throws Error if runs that moved within the stated limits had more added acceleration than allowed.
-Measurement measureAdvice(const std::vector<std::string>& scenarios, int runs);
+void measureAdvice(const std::vector<std::string>& scenarios, int runs, Measurement& result);
 
 }  // namespace fcl_stpbv::benchmark

@@ -23,7 +23,7 @@ using detail::at;
 
 class Bullet : public Peer, private btOverlapFilterCallback {
  public:
-  explicit Bullet(const PosedModel& robot)
+  explicit Bullet(const test::Problem& robot)
       : Peer("Bullet, collision world"), robot_(robot), state_(robot.kinematics->makeState()) {
     const std::vector<Body>& bodies = robot.geometry->bodies;
     isChecked_.assign(bodies.size(), std::vector<char>(bodies.size(), 0));
@@ -87,7 +87,7 @@ class Bullet : public Peer, private btOverlapFilterCallback {
     return isChecked_[indexOf(a)][indexOf(b)] != 0;
   }
 
-  const PosedModel& robot_;
+  const test::Problem& robot_;
   Kinematics::State state_;
   std::vector<std::vector<char>> isChecked_;
   std::vector<std::unique_ptr<btConvexHullShape>> shapes_;
@@ -102,7 +102,7 @@ class Bullet : public Peer, private btOverlapFilterCallback {
 }  // namespace
 
 // Supports only hulls: a robot with other bodies is not compared.
-std::unique_ptr<Peer> bulletPeer(const PosedModel& robot) {
+std::unique_ptr<Peer> bulletPeer(const test::Problem& robot) {
   for (const Body& body : robot.geometry->bodies)
     if (!asStpBv(body.geometry.get())) return nullptr;
   return std::make_unique<Bullet>(robot);
@@ -110,7 +110,7 @@ std::unique_ptr<Peer> bulletPeer(const PosedModel& robot) {
 
 #else
 
-std::unique_ptr<Peer> bulletPeer(const PosedModel&) { return nullptr; }
+std::unique_ptr<Peer> bulletPeer(const test::Problem&) { return nullptr; }
 
 #endif
 

@@ -14,7 +14,7 @@ using detail::at;
 
 class Fcl : public Peer {
  public:
-  explicit Fcl(const PosedModel& robot)
+  explicit Fcl(const test::Problem& robot)
       : Peer("FCL, broadphase"), robot_(robot), state_(robot.kinematics->makeState()) {
     const std::vector<Body>& bodies = robot.geometry->bodies;
     isChecked_.assign(bodies.size(), std::vector<char>(bodies.size(), 0));
@@ -98,7 +98,7 @@ class Fcl : public Peer {
     }
   }
 
-  const PosedModel& robot_;
+  const test::Problem& robot_;
   Kinematics::State state_;
   std::vector<std::vector<char>> isChecked_;
   std::vector<std::unique_ptr<fcl::CollisionObjectd>> objects_;
@@ -107,6 +107,6 @@ class Fcl : public Peer {
 
 }  // namespace
 
-std::unique_ptr<Peer> fclPeer(const PosedModel& robot) { return std::make_unique<Fcl>(robot); }
+std::unique_ptr<Peer> fclPeer(const test::Problem& robot) { return std::make_unique<Fcl>(robot); }
 
 }  // namespace fcl_stpbv::benchmark

@@ -11,7 +11,7 @@ using namespace detail;
 
 class GapStop : public Peer {
  public:
-  explicit GapStop(const PosedModel& robot)
+  explicit GapStop(const test::Problem& robot)
       : Peer("FCL's GJK, duality-gap stop, no J"),
         robot_(robot),
         state_(robot.kinematics->makeState()),
@@ -33,7 +33,7 @@ class GapStop : public Peer {
   }
 
  private:
-  const PosedModel& robot_;
+  const test::Problem& robot_;
   Kinematics::State state_;
   std::vector<WitnessStart> start_;
 };
@@ -41,7 +41,7 @@ class GapStop : public Peer {
 }  // namespace
 
 // Supports only hulls: a robot with other bodies is not compared.
-std::unique_ptr<Peer> gapStopPeer(const PosedModel& robot) {
+std::unique_ptr<Peer> gapStopPeer(const test::Problem& robot) {
   for (const Body& body : robot.geometry->bodies)
     if (!asStpBv(body.geometry.get())) return nullptr;
   return std::make_unique<GapStop>(robot);

@@ -6,19 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "fcl_stpbv/robot/checked_pairs.h"
-#include "fcl_stpbv/robot/kinematics.h"
+#include "test/reference/robots.h"
 
 namespace fcl_stpbv::benchmark {
 
-/// A robot and the pairs to check. The peers hold a reference to it.
-struct PosedModel {
-  std::shared_ptr<const RobotModel> model;
-  std::shared_ptr<const RobotGeometry> geometry;
-  std::shared_ptr<const Kinematics> kinematics;
-  std::vector<CheckedPair> pairs;
-};
-
+/// Holds a reference to the robot.
 class Peer {
  public:
   explicit Peer(std::string itsName) : name(std::move(itsName)) {}
@@ -36,12 +28,12 @@ class Peer {
 
 /// FCL's dynamic tree of boxes, whose callback calls `fcl::collide` or, for the least distance,
 /// `fcl::distance` for the checked pairs. Distances are by `fcl::distance` for each pair.
-std::unique_ptr<Peer> fclPeer(const PosedModel& robot);
+std::unique_ptr<Peer> fclPeer(const test::Problem& robot);
 /// Distances only: FCL's GJK on this library's hulls, from the last answer, stopped by the duality gap. Null
 /// if a body is no hull.
-std::unique_ptr<Peer> gapStopPeer(const PosedModel& robot);
+std::unique_ptr<Peer> gapStopPeer(const test::Problem& robot);
 /// Bullet's collision world with its tree of boxes; distances by its GJK for each pair. Null if a body is no
 /// hull, or if Bullet was not found at build time.
-std::unique_ptr<Peer> bulletPeer(const PosedModel& robot);
+std::unique_ptr<Peer> bulletPeer(const test::Problem& robot);
 
 }  // namespace fcl_stpbv::benchmark

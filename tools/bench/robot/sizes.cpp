@@ -26,22 +26,22 @@ Body ellipsoidOf(const Body& body, int subdivisions) {
 
 }  // namespace
 
-PosedModel withPairs(const PosedModel& robot, std::size_t count) {
-  PosedModel result = robot;
+test::Problem withPairs(const test::Problem& robot, std::size_t count) {
+  test::Problem result = robot;
   result.pairs.clear();
   for (std::size_t i = 0; i < count; ++i) result.pairs.push_back(robot.pairs[i * robot.pairs.size() / count]);
   return result;
 }
 
-PosedModel withEllipsoids(const PosedModel& robot, int subdivisions) {
-  PosedModel result = robot;
+test::Problem withEllipsoids(const test::Problem& robot, int subdivisions) {
+  test::Problem result = robot;
   RobotGeometry bodies = *robot.geometry;
   for (Body& body : bodies.bodies) body = ellipsoidOf(body, subdivisions);
   result.geometry = std::make_shared<const RobotGeometry>(std::move(bodies));
   return result;
 }
 
-double meanVertices(const PosedModel& robot) {
+double meanVertices(const test::Problem& robot) {
   double sum = 0;
   for (const Body& body : robot.geometry->bodies)
     if (const StpBvGeometry* geometry = asStpBv(body.geometry.get())) sum += geometry->hull().vertexCount();

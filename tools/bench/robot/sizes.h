@@ -6,13 +6,13 @@
 namespace fcl_stpbv::benchmark {
 
 /// The robot with `count` of its pairs, evenly spaced in its list.
-PosedModel withPairs(const PosedModel& robot, std::size_t count);
+test::Problem withPairs(const test::Problem& robot, std::size_t count);
 
 /// The robot with the points of an ellipsoid for each hull, within the box around the hull: 12, 42, 162, ...
 /// vertices.
-PosedModel withEllipsoids(const PosedModel& robot, int subdivisions);
+test::Problem withEllipsoids(const test::Problem& robot, int subdivisions);
 
 /// Mean number of vertices of the bodies.
-double meanVertices(const PosedModel& robot);
+double meanVertices(const test::Problem& robot);
 
 }  // namespace fcl_stpbv::benchmark
