@@ -127,7 +127,7 @@ class PythonPairSearch {
   std::optional<Eigen::VectorXd> descend(std::size_t pair, std::uint64_t seed, int starts) const {
     const LinkPair links = linksOf(pair);
     requireCount(starts, 0, "starts");
-    PairSearch search = searchOf(links);
+    PairSearch search(scene_.kinematics, scene_.geometry, links, scene_.obstacles);
     std::mt19937_64 random = numbered(seed, pair);
     const SearchRoom room = searchRoom(*scene_.kinematics, *scene_.geometry, scene_.obstacles);
     Interrupt interrupt;
@@ -168,12 +168,6 @@ class PythonPairSearch {
   void addObstacle(const RobotModel& robot, const RobotGeometry& geometry, std::size_t link, std::size_t o) {
     const LinkPair pair{static_cast<int>(link), static_cast<int>(o), true};
     if (moves(robot, pair.link1) && !bodiesOf(geometry, pair).empty()) pairs_.push_back(pair);
-  }
-  PairSearch searchOf(const LinkPair& pair) const {
-    if (pair.obstacle)
-      return {scene_.kinematics, scene_.geometry, pair.link1,
-              scene_.obstacles[static_cast<std::size_t>(pair.link2)]};
-    return {scene_.kinematics, scene_.geometry, pair.link1, pair.link2};
   }
   static PairEntry entryOf(const LinkPair& links, PairReason reason) {
     PairEntry entry{};

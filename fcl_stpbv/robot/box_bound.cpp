@@ -45,9 +45,7 @@ void moveInto(const BodyPoints& body, const Eigen::Isometry3d& pose, BodyPoints&
 
 PairSearch searchOf(const ProofScene& scene, const LinkPair& pair) {
   requirePair(scene, pair);
-  if (pair.obstacle)
-    return PairSearch(scene.kinematics, scene.geometry, pair.link1, scene.obstacles[at(pair.link2)]);
-  return PairSearch(scene.kinematics, scene.geometry, pair.link1, pair.link2);
+  return {scene.kinematics, scene.geometry, pair, scene.obstacles};
 }
 
 BoxBound::BoxBound(const ProofScene& scene, const LinkPair& pair)

@@ -99,9 +99,7 @@ class Search {
   }
 
   PairSearch searchOf(const PairEntry& entry) const {
-    return entry.obstacle
-               ? PairSearch(kinematics_, geometry_, entry.link1, options_.obstacles[at(entry.link2)])
-               : PairSearch(kinematics_, geometry_, entry.link1, entry.link2);
+    return {kinematics_, geometry_, entry, options_.obstacles};
   }
 
   // Judges the pairs that the tree left open by samples. Pairs found clear go on to descents and proofs.

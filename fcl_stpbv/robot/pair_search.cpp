@@ -14,40 +14,42 @@
 namespace fcl_stpbv::detail {
 namespace {
 
-ConstraintOptions withObstacle(const Obstacle& obstacle) {
+// The pairs of bodies with the obstacle of the pair, if it has one, as the only one.
+std::vector<CheckedPair> ownPairs(const RobotGeometry& geometry, const LinkPair& pair) {
+  std::vector<CheckedPair> pairs = bodiesOf(geometry, pair);
+  for (CheckedPair& bodies : pairs)
+    if (bodies.obstacle) bodies.other = 0;
+  return pairs;
+}
+
+ConstraintOptions ownOptions(const LinkPair& pair, const std::vector<Obstacle>& obstacles) {
   ConstraintOptions options;
-  options.obstacles = {obstacle};
+  if (pair.obstacle) options.obstacles = {obstacles[at(pair.link2)]};
   return options;
 }
 
 }  // namespace
 
 PairSearch::PairSearch(std::shared_ptr<const Kinematics> kinematics,
-                       std::shared_ptr<const RobotGeometry> geometry, int link1, int link2)
-    : PairSearch(kinematics, geometry, pairsOfLinks(*geometry, link1, link2), ConstraintOptions{}) {
-  boundSlopes(link1, reachOf(*geometry_, link1), link2, reachOf(*geometry_, link2));
-}
-
-PairSearch::PairSearch(std::shared_ptr<const Kinematics> kinematics,
-                       std::shared_ptr<const RobotGeometry> geometry, int link, const Obstacle& obstacle)
-    : PairSearch(kinematics, geometry, pairsWithObstacle(*geometry, link, 0), withObstacle(obstacle)) {
-  boundSlopes(link, reachOf(*geometry_, link), 0, obstacle.centre().norm() + obstacle.radius());
-}
-
-PairSearch::PairSearch(std::shared_ptr<const Kinematics> kinematics,
-                       std::shared_ptr<const RobotGeometry> geometry, std::vector<CheckedPair> pairs,
-                       const ConstraintOptions& options)
+                       std::shared_ptr<const RobotGeometry> geometry, const LinkPair& pair,
+                       const std::vector<Obstacle>& obstacles)
     : kinematics_(std::move(kinematics)),
       geometry_(std::move(geometry)),
-      constraints_(kinematics_, geometry_, std::move(pairs), options),
+      constraints_(kinematics_, geometry_, ownPairs(*geometry_, pair), ownOptions(pair, obstacles)),
       d_(constraints_.rows()),
       values_(constraints_.nonZeros()),
       gradient_(kinematics_->size()) {
-  const SearchRoom room = searchRoom(*kinematics_, *geometry_, options.obstacles);
+  const std::vector<Obstacle> own = ownOptions(pair, obstacles).obstacles;
+  const SearchRoom room = searchRoom(*kinematics_, *geometry_, own);
   unit_ = room.unit;
   scale_ = room.scale;
   const std::vector<int>& rows = constraints_.rowStart();  // all rows have the same columns
   coordinates_.assign(constraints_.columnIndices().begin(), constraints_.columnIndices().begin() + rows[1]);
+  const double reach = reachOf(*geometry_, pair.link1);
+  if (pair.obstacle)
+    boundSlopes(pair.link1, reach, 0, own[0].centre().norm() + own[0].radius());
+  else
+    boundSlopes(pair.link1, reach, pair.link2, reachOf(*geometry_, pair.link2));
 }
 
 // A turning joint moves a body's point by at most its distance from the axis. The moment of the normal's line

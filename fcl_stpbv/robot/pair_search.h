@@ -13,11 +13,9 @@ namespace fcl_stpbv::detail {
 /// One pair as a function of the coordinates between them.
 class PairSearch {
  public:
+  /// `obstacles`: those that a pair may name.
   PairSearch(std::shared_ptr<const Kinematics> kinematics, std::shared_ptr<const RobotGeometry> geometry,
-             int link1, int link2);
-  /// A link and a static obstacle.
-  PairSearch(std::shared_ptr<const Kinematics> kinematics, std::shared_ptr<const RobotGeometry> geometry,
-             int link, const Obstacle& obstacle);
+             const LinkPair& pair, const std::vector<Obstacle>& obstacles = {});
 
   /// Least distance over the bodies at q.
   double distance(const Eigen::VectorXd& q);
@@ -40,8 +38,6 @@ class PairSearch {
   void forget() { constraints_.forget(); }
 
  private:
-  PairSearch(std::shared_ptr<const Kinematics> kinematics, std::shared_ptr<const RobotGeometry> geometry,
-             std::vector<CheckedPair> pairs, const ConstraintOptions& options);
   double distanceAndGradient(const Eigen::VectorXd& q);
   template <class Arrived>
   double follow(Eigen::VectorXd& q, double sign, Arrived arrived);

@@ -14,6 +14,13 @@ LoadedRobot load(const TestRobot& robot, GeometryOptions options) {
   return {model, std::move(geometry)};
 }
 
+LoadedRobot parsed(const std::string& urdf, GeometryOptions options) {
+  options.cacheFolder.clear();
+  auto model = std::make_shared<const RobotModel>(parseUrdf(urdf, "small.urdf"));
+  RobotGeometry geometry = loadGeometry(*model, options);
+  return {model, std::move(geometry)};
+}
+
 Problem problem(const TestRobot& robot, BaseMotion base) {
   LoadedRobot loaded = load(robot);
   Problem p;
@@ -58,6 +65,20 @@ std::unique_ptr<CollisionConstraints> singleRow(std::shared_ptr<const Kinematics
   options.obstacles = {obstacleOf(obstacle, "obstacle")};
   return std::make_unique<CollisionConstraints>(std::move(kinematics), geometry,
                                                 std::vector<CheckedPair>{{0, 0, true}}, std::move(options));
+}
+
+SmoothConstraint product() {
+  SmoothConstraint constraint;
+  constraint.name = "product";
+  constraint.coordinates = {2, 5};
+  constraint.value = [](const Eigen::Ref<const Eigen::VectorXd>& q, double* gradient) {
+    if (gradient) {
+      gradient[0] = q[5] * q[5];
+      gradient[1] = 2 * q[2] * q[5];
+    }
+    return q[2] * q[5] * q[5];
+  };
+  return constraint;
 }
 
 Eigen::VectorXd randomConfiguration(const Kinematics& kinematics, Random& random) {

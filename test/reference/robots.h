@@ -28,6 +28,8 @@ struct LoadedRobot {
 
 /// Loads a robot without a cache, so that tests leave no files behind.
 LoadedRobot load(const TestRobot& robot, GeometryOptions options = {});
+/// The robot of a URDF's text, loaded in the same way.
+LoadedRobot parsed(const std::string& urdf, GeometryOptions options = {});
 
 /// The arguments of CollisionConstraints: all pairs except those that the SRDF leaves out, or those of
 /// adjacent links.
@@ -50,6 +52,9 @@ Body smoothBody(int link, const std::string& name, const StpBv::Ptr& volume,
 std::unique_ptr<CollisionConstraints> singleRow(std::shared_ptr<const Kinematics> kinematics,
                                                 const Body& body, const fcl::CollisionObjectd& obstacle,
                                                 ConstraintOptions options = {});
+
+/// q2 q5^2, as a row of one's own.
+SmoothConstraint product();
 
 /// Random, within the limits and within 1 rad or m of zero.
 Eigen::VectorXd randomConfiguration(const Kinematics& kinematics, Random& random);

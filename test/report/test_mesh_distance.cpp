@@ -13,6 +13,7 @@
 #include "fcl_stpbv/robot/link_geometry.h"
 #include "fcl_stpbv/robot/mesh_file.h"
 #include "fcl_stpbv/volume/tessellate.h"
+#include "test/reference/robots.h"
 #include "test/reference/shapes.h"
 #include "test/reference/solids.h"
 #include "test/reference/volume_files.h"
@@ -355,9 +356,7 @@ TEST_CASE("a mesh that was saved after its body was made is not measured") {
   const TemporaryFolder folder;
   saveMesh(folder / "m.obj", lShape());
   put(folder / "r.urdf", robot(link("a", "<mesh filename=\"m.obj\"/>")));
-  GeometryOptions options;
-  options.cacheFolder.clear();
-  const RobotGeometry geometry = loadGeometry(loadUrdf(folder / "r.urdf"), options);
+  const RobotGeometry geometry = load({"", folder / "r.urdf", "", {}}).geometry;
   CHECK(ExactBody(geometry.bodies[0]).volume() > 0);
   saveMesh(folder / "m.obj", boxMesh({0, 0, 0}, {0.1, 0.1, 0.1}));
   CHECK_THROWS_WITH(ExactBody(geometry.bodies[0]), Catch::Contains("changed while it was read; run again"));

@@ -6,6 +6,7 @@
 
 #include "fcl_stpbv/robot/kinematics.h"
 #include "fcl_stpbv/robot/link_geometry.h"
+#include "test/reference/robots.h"
 
 namespace fcl_stpbv::test {
 
@@ -14,10 +15,9 @@ struct Arm {
   std::shared_ptr<const RobotGeometry> geometry;
 };
 
-inline Arm armFrom(std::shared_ptr<const RobotModel> model, RobotGeometry geometry,
-                   BaseMotion base = BaseMotion::fixed) {
-  return {std::make_shared<const Kinematics>(std::move(model), base),
-          std::make_shared<const RobotGeometry>(std::move(geometry))};
+inline Arm armFrom(LoadedRobot loaded, BaseMotion base = BaseMotion::fixed) {
+  return {std::make_shared<const Kinematics>(std::move(loaded.model), base),
+          std::make_shared<const RobotGeometry>(std::move(loaded.geometry))};
 }
 
 }  // namespace fcl_stpbv::test

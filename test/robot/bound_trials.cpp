@@ -12,6 +12,7 @@
 
 #include "fcl_stpbv/robot/adjacency.h"
 #include "fcl_stpbv/robot/pair_search.h"
+#include "test/reference/robots.h"
 #include "test/robot/urdf_texts.h"
 
 namespace fcl_stpbv::test {
@@ -29,12 +30,10 @@ std::string moving(const std::string& name, const std::string& type, const std::
 }  // namespace
 
 ProofScene proofSceneOf(const std::string& urdf, std::vector<Obstacle> obstacles) {
-  const auto model = std::make_shared<const RobotModel>(parseUrdf(urdf, "small.urdf"));
-  GeometryOptions options;
-  options.cacheFolder.clear();
-  return proofScene(std::make_shared<const Kinematics>(model),
-                    std::make_shared<const RobotGeometry>(loadGeometry(*model, options)),
-                    std::move(obstacles), 0);
+  LoadedRobot loaded = parsed(urdf);
+  return proofScene(std::make_shared<const Kinematics>(loaded.model),
+                    std::make_shared<const RobotGeometry>(std::move(loaded.geometry)), std::move(obstacles),
+                    0);
 }
 
 ProofScene primitiveScene() {
@@ -87,9 +86,7 @@ BoundTrials tryBounds(const ProofScene& scene, const std::vector<LinkPair>& pair
   const Kinematics& kinematics = *scene.kinematics;
   for (int b = 0; b < boxes; ++b) {
     const LinkPair& pair = pairs[static_cast<std::size_t>(random.below(static_cast<int>(pairs.size())))];
-    PairSearch search = pair.obstacle ? PairSearch(scene.kinematics, scene.geometry, pair.link1,
-                                                   scene.obstacles[static_cast<std::size_t>(pair.link2)])
-                                      : PairSearch(scene.kinematics, scene.geometry, pair.link1, pair.link2);
+    PairSearch search(scene.kinematics, scene.geometry, pair, scene.obstacles);
     const std::vector<int>& coordinates = search.coordinates();
     const auto size = static_cast<Eigen::Index>(coordinates.size());
     JointBox box{Eigen::VectorXd(size), Eigen::VectorXd(size)};

@@ -4,6 +4,7 @@
 #include "fcl_stpbv/robot/adjacency.h"
 #include "fcl_stpbv/robot/geometry_steps.h"
 #include "fcl_stpbv/robot/pair_list.h"
+#include "test/reference/robots.h"
 #include "test/robot/urdf_texts.h"
 
 using namespace fcl_stpbv;
@@ -50,10 +51,8 @@ struct Scene {
 };
 
 Scene sceneOf(const std::string& text) {
-  const auto model = std::make_shared<const RobotModel>(parseUrdf(text, "small.urdf"));
-  GeometryOptions options;
-  options.cacheFolder.clear();
-  return {model, std::make_shared<const RobotGeometry>(loadGeometry(*model, options))};
+  LoadedRobot loaded = parsed(text);
+  return {loaded.model, std::make_shared<const RobotGeometry>(std::move(loaded.geometry))};
 }
 
 }  // namespace

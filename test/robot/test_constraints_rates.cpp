@@ -109,17 +109,7 @@ CollisionConstraints crowded(const Problem& p) {
                                        Eigen::Vector3d(1.3 * std::cos(angle), 1.3 * std::sin(angle), 0.5));
     options.obstacles.push_back(obstacleOf(object, "shape"));
   }
-  SmoothConstraint product;
-  product.name = "product";
-  product.coordinates = {2, 5};
-  product.value = [](const Eigen::Ref<const VectorXd>& q, double* gradient) {
-    if (gradient) {
-      gradient[0] = q[5] * q[5];
-      gradient[1] = 2 * q[2] * q[5];
-    }
-    return q[2] * q[5] * q[5];
-  };
-  options.smooth = {product};
+  options.smooth = {product()};
   std::vector<CheckedPair> pairs =
       obstaclePairs(*p.model, *p.geometry, static_cast<int>(shapes.size()), true);
   pairs.insert(pairs.end(), p.pairs.begin(), p.pairs.begin() + 40);

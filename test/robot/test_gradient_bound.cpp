@@ -6,6 +6,7 @@
 
 #include "fcl_stpbv/adapter/stp_bv_geometry.h"
 #include "test/reference/robots.h"
+#include "test/robot/urdf_texts.h"
 
 using namespace fcl_stpbv;
 using namespace fcl_stpbv::test;
@@ -78,20 +79,18 @@ TEST_CASE("a gradient's bound holds in any depth that it is given for") {
 }
 
 TEST_CASE("the gradient of two polyhedra has no bound, and none is not a number") {
-  const char* const rail = R"(<robot name="rail"><link name="base"/><link name="b"><collision><geometry>
-      <box size="0.2 0.2 0.2"/></geometry></collision></link>
-    <joint name="x" type="prismatic"><parent link="base"/><child link="b"/><axis xyz="1 0 0"/>
-      <limit lower="-9" upper="9" effort="1" velocity="1"/></joint></robot>)";
-  const auto model = std::make_shared<const RobotModel>(parseUrdf(rail, "rail.urdf"));
   GeometryOptions flat;
   flat.flat = true;
-  const auto geometry = std::make_shared<RobotGeometry>(loadGeometry(*model, flat));
+  const LoadedRobot rail = parsed(robot(link("base") + link("b", "<box size=\"0.2 0.2 0.2\"/>") +
+                                        joint("x", "prismatic", "base", "b", "", 9)),
+                                  flat);
+  const auto geometry = std::make_shared<RobotGeometry>(rail.geometry);
   ConstraintOptions options;
   options.influence = 2;
   const fcl::CollisionObjectd wall(std::make_shared<fcl::Boxd>(0.5, 0.4, 0.1), Random(7).rotation(),
                                    {3, 0, 0});
   options.obstacles = {obstacleOf(wall, "wall")};
-  CollisionConstraints constraints(std::make_shared<const Kinematics>(model), geometry, {{0, 0, true}},
+  CollisionConstraints constraints(std::make_shared<const Kinematics>(rail.model), geometry, {{0, 0, true}},
                                    options);
   RowRates rates = constraints.makeRates();
   MatrixXd jacobian(1, 1);

@@ -7,6 +7,7 @@
 #include "fcl_stpbv/robot/link_geometry.h"
 #include "fcl_stpbv/robot/mesh_file.h"
 #include "fcl_stpbv/robot/volume_cache.h"
+#include "test/reference/robots.h"
 #include "test/reference/solids.h"
 #include "test/reference/volume_files.h"
 #include "test/robot/mesh_reads.h"
@@ -29,9 +30,7 @@ std::shared_ptr<const RobotGeometry> threeLinks(const TemporaryFolder& folder) {
   for (const std::string name : {"l", "bowl", "box"})
     text += link(name, "<mesh filename=\"" + name + ".obj\"/>");
   put(folder / "r.urdf", robot(text + joint("j", "fixed", "l", "bowl") + joint("k", "fixed", "bowl", "box")));
-  GeometryOptions options;
-  options.cacheFolder.clear();
-  return std::make_shared<const RobotGeometry>(loadGeometry(loadUrdf(folder / "r.urdf"), options));
+  return std::make_shared<const RobotGeometry>(load({"", folder / "r.urdf", "", {}}).geometry);
 }
 
 const std::map<int, int> kThree{{0, 3}, {1, 3}, {2, 3}};
@@ -92,10 +91,7 @@ TEST_CASE("links of one mesh share its parts, without a cache too") {
   const std::string mesh = "<mesh filename=\"l.obj\"/>";
   put(folder / "r.urdf",
       robot(link("left", mesh) + link("right", mesh) + joint("j", "fixed", "left", "right")));
-  GeometryOptions options;
-  options.cacheFolder.clear();
-  LinkParts parts(std::make_shared<const RobotGeometry>(loadGeometry(loadUrdf(folder / "r.urdf"), options)),
-                  "");
+  LinkParts parts(std::make_shared<const RobotGeometry>(load({"", folder / "r.urdf", "", {}}).geometry), "");
   const std::vector<Body>& left = parts.of(0, 2);
   REQUIRE(left.size() == 2);
   const long before = pagesOfChildren();

@@ -66,10 +66,8 @@ struct Scene {
 
 Scene everyJoint(BaseMotion base) {
   Scene scene;
-  scene.model = std::make_shared<const RobotModel>(parseUrdf(kJoints, "joints.urdf"));
-  GeometryOptions options;
-  options.cacheFolder.clear();
-  RobotGeometry geometry = loadGeometry(*scene.model, options);
+  auto [model, geometry] = parsed(kJoints);
+  scene.model = model;
   for (Body& body : geometry.bodies)
     if (scene.model->links[static_cast<std::size_t>(body.link)].name == "e")
       body.geometry = meshOfBox(0.3, 0.05, 0.05);
@@ -241,16 +239,14 @@ TEST_CASE("a motion that begins without approaching meets what its acceleration 
   // A ball on a lever of 1 m begins opposite a ball or a mesh that stands on its circle. It approaches at 0
   // m/s first: only the bound on its acceleration limits the first step.
   Scene scene;
-  scene.model = std::make_shared<const RobotModel>(parseUrdf(
+  const LoadedRobot lever = parsed(
       "<robot name=\"r\"><link name=\"a\"/><link name=\"b\"><collision><geometry><sphere radius=\"0.01\"/>"
       "</geometry></collision></link><joint name=\"j\" type=\"revolute\"><parent link=\"a\"/>"
       "<child link=\"l\"/><axis xyz=\"0 0 1\"/><limit lower=\"-7\" upper=\"7\" effort=\"1\" velocity=\"1\"/>"
       "</joint><link name=\"l\"/><joint name=\"f\" type=\"fixed\"><parent link=\"l\"/><child link=\"b\"/>"
-      "<origin xyz=\"1 0 0\"/></joint></robot>",
-      "lever.urdf"));
-  GeometryOptions options;
-  options.cacheFolder.clear();
-  scene.geometry = std::make_shared<const RobotGeometry>(loadGeometry(*scene.model, options));
+      "<origin xyz=\"1 0 0\"/></joint></robot>");
+  scene.model = lever.model;
+  scene.geometry = std::make_shared<const RobotGeometry>(lever.geometry);
   scene.kinematics = std::make_shared<const Kinematics>(scene.model);
   const auto across = pose(Eigen::Matrix3d::Identity(), {-1, 0, 0});
   for (const std::shared_ptr<fcl::CollisionGeometryd>& shape :

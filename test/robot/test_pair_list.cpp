@@ -41,10 +41,7 @@ Arm bars(double limit) {
   };
   put(folder / "r.urdf", robot(link("a", mesh) + link("b", mesh) + link("c", mesh) + turn("j1", "a", "b") +
                                turn("j2", "b", "c")));
-  const auto model = std::make_shared<const RobotModel>(loadUrdf(folder / "r.urdf"));
-  GeometryOptions options;
-  options.cacheFolder.clear();
-  return armFrom(model, loadGeometry(*model, options));
+  return armFrom(load({"", folder / "r.urdf", "", {}}));
 }
 
 }  // namespace
@@ -59,7 +56,7 @@ TEST_CASE("a pair that cannot meet is proven never, one that can comes with the 
     REQUIRE(list.size() == 3);
     CHECK(list[0].reason == PairReason::adjacent);
     const PairEntry& ends = list[1];
-    PairSearch search(arm.kinematics, arm.geometry, 0, 2);
+    PairSearch search(arm.kinematics, arm.geometry, {0, 2});
     CHECK(search.distance(ends.closest) == Approx(ends.minDistance).margin(1e-12));
     if (limit < 2) {
       CHECK(ends.reason == PairReason::neverProven);
@@ -78,12 +75,10 @@ TEST_CASE("a proof without a limit of boxes is a proof, and one that no box can 
   CHECK(pairList(arm.kinematics, arm.geometry, nullptr, options)[1].reason == PairReason::neverProven);
   // There is no bound for bodies across a planar joint.
   const std::string ball = "<sphere radius=\"0.1\"/>";
-  const auto model = std::make_shared<const RobotModel>(
-      parseUrdf(robot(link("a", ball) + link("m", ball) + link("b", ball) +
-                      joint("p", "planar", "a", "m", "<origin xyz=\"0 0 1\"/><axis xyz=\"0 0 1\"/>") +
-                      joint("j", "revolute", "m", "b", "<origin xyz=\"0 0 0.5\"/><axis xyz=\"0 0 1\"/>")),
-                "planar.urdf"));
-  const Arm planar = armFrom(model, loadGeometry(*model));
+  const Arm planar = armFrom(
+      parsed(robot(link("a", ball) + link("m", ball) + link("b", ball) +
+                   joint("p", "planar", "a", "m", "<origin xyz=\"0 0 1\"/><axis xyz=\"0 0 1\"/>") +
+                   joint("j", "revolute", "m", "b", "<origin xyz=\"0 0 0.5\"/><axis xyz=\"0 0 1\"/>"))));
   options.proofBoxes = 200;
   options.proofSeconds = 60;
   const auto begin = std::chrono::steady_clock::now();
@@ -97,11 +92,9 @@ TEST_CASE("adjacent links that an SRDF has checked are searched like all others"
   const std::string beside =
       "<collision><origin xyz=\"0.3 0 0\"/><geometry><box size=\"0.4 0.1 0.1\"/>"
       "</geometry></collision></link>";
-  const auto model = std::make_shared<const RobotModel>(
-      parseUrdf(robot("<link name=\"a\">" + beside + "<link name=\"b\">" + beside +
-                      joint("j", "revolute", "a", "b", "<origin rpy=\"0 0 2\"/><axis xyz=\"0 0 1\"/>", 3)),
-                "pair.urdf"));
-  const Arm arm = armFrom(model, loadGeometry(*model));
+  const Arm arm = armFrom(
+      parsed(robot("<link name=\"a\">" + beside + "<link name=\"b\">" + beside +
+                   joint("j", "revolute", "a", "b", "<origin rpy=\"0 0 2\"/><axis xyz=\"0 0 1\"/>", 3))));
   const auto searched = [&](const Srdf* srdf) {
     return pairList(arm.kinematics, arm.geometry, srdf).front();
   };
@@ -109,7 +102,7 @@ TEST_CASE("adjacent links that an SRDF has checked are searched like all others"
   leftOut.disabled.push_back({"a", "b", "Adjacent"});
   CHECK(searched(&checked).reason == PairReason::adjacent);
   CHECK(searched(&checked).minDistance < 0);
-  PairSearch search(arm.kinematics, arm.geometry, 0, 1);
+  PairSearch search(arm.kinematics, arm.geometry, {0, 1});
   CHECK(search.distance(searched(&checked).closest) == Approx(searched(&checked).minDistance).margin(1e-12));
   for (const Srdf* srdf : {static_cast<const Srdf*>(nullptr), static_cast<const Srdf*>(&leftOut)}) {
     CHECK(searched(srdf).reason == PairReason::adjacent);
@@ -145,8 +138,7 @@ TEST_CASE("obstacles enter the search: met with the configuration, or proven out
   for (const PairEntry& entry : list) {
     if (!entry.obstacle) continue;
     INFO("link " << entry.link1 << ", obstacle " << entry.link2);
-    PairSearch search(arm.kinematics, arm.geometry, entry.link1,
-                      options.obstacles[static_cast<std::size_t>(entry.link2)]);
+    PairSearch search(arm.kinematics, arm.geometry, entry, options.obstacles);
     CHECK(search.distance(entry.closest) == Approx(entry.minDistance).margin(1e-12));
     if (entry.link2 == 1) {
       CHECK(entry.reason == PairReason::neverProven);
@@ -159,10 +151,26 @@ TEST_CASE("obstacles enter the search: met with the configuration, or proven out
   CHECK(toSrdf(arm.kinematics->robot(), list).size() == 3);
 }
 
+TEST_CASE("a search with an obstacle takes the parts of its own pair, not those of another obstacle's") {
+  const Arm arm = bars(1);
+  RobotGeometry geometry = *arm.geometry;
+  Body part = geometry.bodies.back();
+  part.partOf = 2;
+  geometry.bodies.back().parts = 1;
+  geometry.bodies.push_back(part);
+  geometry.byParts = {{2, 1, true}};
+  const auto both = std::make_shared<const RobotGeometry>(geometry);
+  const Obstacle ball("ball", std::make_shared<fcl::Sphered>(0.1));
+  for (const int obstacle : {0, 1}) {
+    const PairSearch search(arm.kinematics, both, {2, obstacle, true}, {ball, ball});
+    REQUIRE(search.constraints().pairs().size() == 1);
+    CHECK(search.constraints().pairs()[0].body == 2 + obstacle);
+  }
+}
+
 TEST_CASE("what is proven never stays apart in samples and descents of another seed") {
   for (const TestRobot& robot : robots()) {
-    LoadedRobot loaded = load(robot);
-    const Arm arm = armFrom(loaded.model, std::move(loaded.geometry));
+    const Arm arm = armFrom(load(robot));
     INFO(robot.name);
     PairListOptions options;
     options.samples = 200;
@@ -179,7 +187,7 @@ TEST_CASE("what is proven never stays apart in samples and descents of another s
     Random random(23);
     for (const PairEntry& entry : list) {
       if (!isProven(entry)) continue;
-      PairSearch search(arm.kinematics, arm.geometry, entry.link1, entry.link2);
+      PairSearch search(arm.kinematics, arm.geometry, entry);
       Eigen::VectorXd q(arm.kinematics->size());
       for (int trial = 0; trial < 10; ++trial) {
         for (int k = 0; k < q.size(); ++k)
@@ -197,14 +205,11 @@ TEST_CASE("a proven pair has the closest configuration of all, not of one valley
     return "<collision><origin xyz=\"" + at + "\"/><geometry><sphere radius=\"" + radius +
            "\"/></geometry></collision>";
   };
-  const auto model = std::make_shared<const RobotModel>(
-      parseUrdf(robot("<link name=\"ball\">" + knob("1.5 0 0", "0.1") + "</link>" +
-                      link("hub", "<sphere radius=\"0.1\"/>") + "<link name=\"wheel\">" +
-                      knob("0 1 0", "0.1") + knob("0 -1 0", "0.12") + "</link>" +
-                      joint("aim", "revolute", "ball", "hub", "<axis xyz=\"0 0 1\"/>") +
-                      joint("turn", "revolute", "hub", "wheel", "<axis xyz=\"0 0 1\"/>", 3)),
-                "wheel.urdf"));
-  const Arm arm = armFrom(model, loadGeometry(*model));
+  const Arm arm = armFrom(parsed(robot(
+      "<link name=\"ball\">" + knob("1.5 0 0", "0.1") + "</link>" + link("hub", "<sphere radius=\"0.1\"/>") +
+      "<link name=\"wheel\">" + knob("0 1 0", "0.1") + knob("0 -1 0", "0.12") + "</link>" +
+      joint("aim", "revolute", "ball", "hub", "<axis xyz=\"0 0 1\"/>") +
+      joint("turn", "revolute", "hub", "wheel", "<axis xyz=\"0 0 1\"/>", 3))));
   PairListOptions options;
   options.samples = options.descents = 1;
   for (options.seed = 1; options.seed <= 8; ++options.seed) {
@@ -224,8 +229,7 @@ TEST_CASE("robots of many pairs and coordinates get fewer random descents for ea
                joint("j" + number, "planar", "base", "l" + number,
                      "<origin xyz=\"0 0 " + height + "\"/><axis xyz=\"0 0 1\"/>");
     }
-    const auto model = std::make_shared<const RobotModel>(parseUrdf(robot(parts), "discs.urdf"));
-    const Arm arm = armFrom(model, loadGeometry(*model));
+    const Arm arm = armFrom(parsed(robot(parts)));
     PairListOptions options;
     options.samples = 5;
     options.descents = 0;
@@ -244,8 +248,7 @@ TEST_CASE("robots of many pairs and coordinates get fewer random descents for ea
 }
 
 TEST_CASE("pairs that are searched again come out as in a search of all, the others are kept as they were") {
-  LoadedRobot loaded = load(robots()[0]);
-  const Arm arm = armFrom(loaded.model, std::move(loaded.geometry));
+  const Arm arm = armFrom(load(robots()[0]));
   PairListOptions options;
   options.samples = 30;
   options.randomDescents = 5;
@@ -280,17 +283,16 @@ TEST_CASE("no slope of the distance exceeds its Lipschitz bound") {
   fcl::CollisionObjectd object(ball);
   object.setTranslation(Eigen::Vector3d(0.5, 0.7, 0.9));
   for (const TestRobot& robot : robots()) {
-    LoadedRobot loaded = load(robot);
-    const Arm arm = armFrom(loaded.model, std::move(loaded.geometry));
+    const Arm arm = armFrom(load(robot));
     Random random(2);
     for (int trial = 0; trial < 100; ++trial) {
       const int count = static_cast<int>(arm.geometry->bodies.size());
       const int i = arm.geometry->bodies[static_cast<std::size_t>(random.below(count))].link;
       const int j = arm.geometry->bodies[static_cast<std::size_t>(random.below(count))].link;
       if (i == j) continue;
-      PairSearch search = trial % 4 == 0 && moves(*loaded.model, i)
-                              ? PairSearch(arm.kinematics, arm.geometry, i, obstacleOf(object, "ball"))
-                              : PairSearch(arm.kinematics, arm.geometry, i, j);
+      const bool obstacle = trial % 4 == 0 && moves(arm.kinematics->robot(), i);
+      PairSearch search(arm.kinematics, arm.geometry, {i, obstacle ? 0 : j, obstacle},
+                        {obstacleOf(object, "ball")});
       Eigen::VectorXd q(arm.kinematics->size());
       for (int k = 0; k < q.size(); ++k)
         q[k] = random.uniform(arm.kinematics->lower()[k], arm.kinematics->upper()[k]);
@@ -308,9 +310,8 @@ TEST_CASE("no slope of the distance exceeds its Lipschitz bound") {
 
 TEST_CASE("the list is the same for the same seed, sorted, and keeps the user's entries") {
   const TestRobot robot = robots()[0];
-  LoadedRobot loaded = load(robot);
-  const Arm arm = armFrom(loaded.model, std::move(loaded.geometry));
-  const Srdf srdf = loadSrdf(robot.srdf, *loaded.model);
+  const Arm arm = armFrom(load(robot));
+  const Srdf srdf = loadSrdf(robot.srdf, arm.kinematics->robot());
   PairListOptions options;
   options.samples = 100;
   options.randomDescents = 20;
@@ -327,7 +328,7 @@ TEST_CASE("the list is the same for the same seed, sorted, and keeps the user's 
     user += once[i].reason == PairReason::user;
   }
   CHECK(user == 266);
-  const std::vector<Srdf::Pair> pairs = toSrdf(*loaded.model, once);
+  const std::vector<Srdf::Pair> pairs = toSrdf(arm.kinematics->robot(), once);
   for (std::size_t i = 1; i < pairs.size(); ++i)
     CHECK(std::make_pair(pairs[i - 1].link1, pairs[i - 1].link2) <
           std::make_pair(pairs[i].link1, pairs[i].link2));
@@ -348,10 +349,7 @@ Arm folded() {
       link("a", ball("0.1")) + link("b", bar) + link("elbow") + link("c", ball("0.05")) +
       link("d", ball("0.05")) + turn("j1", "a", "b", "0 0 0") + turn("j2", "b", "elbow", "0.3 0 0") +
       joint("j3", "fixed", "elbow", "c", "<origin xyz=\"-0.25 0 0\"/>") + turn("j4", "b", "d", "0 0 0.05"));
-  const auto model = std::make_shared<const RobotModel>(parseUrdf(text, "folded.urdf"));
-  GeometryOptions options;
-  options.cacheFolder.clear();
-  return armFrom(model, loadGeometry(*model, options));
+  return armFrom(parsed(text));
 }
 
 const PairEntry& entryOf(const Arm& arm, const std::vector<PairEntry>& list, const std::string& one,
@@ -403,12 +401,7 @@ TEST_CASE("what is clear in the neutral posture stays checked where nearly all o
            "\"><collision><origin xyz=\"0 -0.56 0\"/><geometry>"
            "<box size=\"4 1 1\"/></geometry></collision></link>";
   };
-  GeometryOptions none;
-  none.cacheFolder.clear();
-  const auto load = [&](const std::string& text) {
-    const auto model = std::make_shared<const RobotModel>(parseUrdf(robot(text), "small.urdf"));
-    return armFrom(model, loadGeometry(*model, none));
-  };
+  const auto load = [&](const std::string& text) { return armFrom(parsed(robot(text))); };
   const Arm itself = load(slab("base") + arm), beside = load(link("base") + arm), scene = load(slab("slab"));
   for (const bool obstacle : {false, true}) {
     const Arm& one = obstacle ? beside : itself;
@@ -443,7 +436,7 @@ TEST_CASE(
   const std::string drive =
       link("base", "<box size=\"0.1 0.1 0.1\"/>") + link("drive") + link("arm", "<sphere radius=\"0.05\"/>");
   const auto armOf = [&](const std::string& ratio) {
-    const auto model = std::make_shared<const RobotModel>(parseUrdf(
+    return armFrom(parsed(
         robot(drive +
               "<joint name=\"j\" type=\"continuous\"><parent link=\"base\"/><child link=\"drive\"/></joint>"
               "<joint name=\"m\" type=\"continuous\"><parent link=\"drive\"/><child link=\"middle\"/>"
@@ -454,11 +447,7 @@ TEST_CASE(
               "<joint name=\"f\" type=\"revolute\"><parent link=\"middle\"/><child link=\"arm\"/>"
               "<origin xyz=\"0.5 0 0\"/><limit lower=\"-0.1\" upper=\"0.1\" effort=\"1\" "
               "velocity=\"1\"/></joint>" +
-              link("middle") + link("wheel")),
-        "small.urdf"));
-    GeometryOptions options;
-    options.cacheFolder.clear();
-    return armFrom(model, loadGeometry(*model, options));
+              link("middle") + link("wheel"))));
   };
   for (const char* ratio : {"1", "0.5", "0.25"}) {
     const Arm arm = armOf(ratio);
@@ -482,15 +471,13 @@ TEST_CASE(
 
 TEST_CASE("what has no limits is searched as far as the robot reaches") {
   const auto reasonFor = [](const std::string& still, const std::string& moves, const std::string& type) {
-    const auto model = std::make_shared<const RobotModel>(parseUrdf(
+    GeometryOptions options;
+    options.radii = {0.01, 1000};
+    const Arm arm = armFrom(parsed(
         robot("<link name=\"still\">" + still + "</link>" + link("between") + link("moves", moves) +
               joint("free", type, "still", "between", type == "planar" ? "<axis xyz=\"0 0 1\"/>" : "") +
               joint("turn", "revolute", "between", "moves")),
-        "small.urdf"));
-    GeometryOptions options;
-    options.cacheFolder.clear();
-    options.radii = {0.01, 1000};
-    const Arm arm = armFrom(model, loadGeometry(*model, options));
+        options));
     PairListOptions list;
     list.samples = 200;
     return entryOf(arm, pairList(arm.kinematics, arm.geometry, nullptr, list), "still", "moves").reason;
@@ -543,8 +530,7 @@ TEST_CASE("another neutral posture is another default, and a better one is sugge
 TEST_CASE(
     "collisions in far corners of the joints' ranges are found with the default options, whatever the seed") {
   const TestRobot robot = robots()[0];
-  LoadedRobot loaded = load(robot);
-  const Arm arm = armFrom(loaded.model, std::move(loaded.geometry));
+  const Arm arm = armFrom(load(robot));
   const std::vector<std::pair<std::string, std::string>> rare{{"RLEG_LINK5", "CHEST_LINK1"},
                                                               {"LLEG_LINK5", "CHEST_LINK1"},
                                                               {"RLEG_LINK1", "LARM_LINK4"},
@@ -555,8 +541,8 @@ TEST_CASE(
     });
   };
   Srdf srdf;  // these pairs only
-  for (const LinkModel& one : loaded.model->links)
-    for (const LinkModel& other : loaded.model->links)
+  for (const LinkModel& one : arm.kinematics->robot().links)
+    for (const LinkModel& other : arm.kinematics->robot().links)
       if (!isRare(one.name, other.name)) srdf.disabled.push_back({one.name, other.name, "User"});
   for (const std::uint64_t seed : {1, 2, 3, 4, 5}) {
     PairListOptions options;
@@ -566,7 +552,7 @@ TEST_CASE(
       INFO(one << " - " << other << ", seed " << seed);
       const PairEntry& entry = entryOf(arm, list, one, other);
       CHECK(entry.reason == PairReason::sometimes);
-      PairSearch search(arm.kinematics, arm.geometry, entry.link1, entry.link2);
+      PairSearch search(arm.kinematics, arm.geometry, entry);
       CHECK(search.distance(entry.closest) <= 0);
     }
   }

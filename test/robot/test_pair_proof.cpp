@@ -152,7 +152,7 @@ TEST_CASE("a collision that a proof finds is one, and ends it") {
   REQUIRE(proof.collision);
   CHECK(proof.open.empty());
   CHECK_FALSE(proof.proven());
-  PairSearch search(scene.kinematics, scene.geometry, pair.link1, pair.link2);
+  PairSearch search(scene.kinematics, scene.geometry, pair);
   CHECK(search.distance(*proof.collision) <= 0);
   CHECK((*proof.collision - scene.kinematics->lower()).minCoeff() >= 0);
   CHECK((scene.kinematics->upper() - *proof.collision).minCoeff() >= 0);

@@ -21,11 +21,9 @@ using namespace fcl_stpbv::test;
 namespace {
 
 Arm loaded(const std::string& body, const StpBvOptions& radii, BaseMotion base = BaseMotion::fixed) {
-  const auto model = std::make_shared<const RobotModel>(parseUrdf(robot(body), "small.urdf"));
   GeometryOptions options;
-  options.cacheFolder.clear();
   options.radii = radii;
-  return armFrom(model, loadGeometry(*model, options), base);
+  return armFrom(parsed(robot(body), options), base);
 }
 
 const StpBvOptions kRounding{0.01, 1000};
@@ -173,8 +171,8 @@ TEST_CASE("descents of small and large robots do not depend on their size") {
     CAPTURE(metre);
     const Arm usual = robotOf(metre), scaled = robotOf(metre * factor);
     const int hand = usual.kinematics->robot().link("hand"), block = usual.kinematics->robot().link("block");
-    PairSearch one(usual.kinematics, usual.geometry, hand, block),
-        other(scaled.kinematics, scaled.geometry, hand, block);
+    PairSearch one(usual.kinematics, usual.geometry, {hand, block}),
+        other(scaled.kinematics, scaled.geometry, {hand, block});
     const SearchRoom room = searchRoom(*usual.kinematics, *usual.geometry, {});
     std::mt19937_64 random(1);
     for (int i = 0; i < 50; ++i) {

@@ -9,6 +9,7 @@
 #include "fcl_stpbv/robot/velocity_damper.h"
 #include "test/reference/robots.h"
 #include "test/reference/shapes.h"
+#include "test/robot/urdf_texts.h"
 
 using namespace fcl_stpbv;
 using namespace fcl_stpbv::test;
@@ -266,10 +267,8 @@ TEST_CASE("numbers of another size, too little room and rows that do not exist a
 }
 
 TEST_CASE("a smooth constraint whose value is no number is near, with a row that nothing meets") {
-  const char* const rail = R"(<robot name="rail"><link name="base"/><link name="b"/>
-    <joint name="x" type="prismatic"><parent link="base"/><child link="b"/><axis xyz="1 0 0"/>
-      <limit lower="-9" upper="9" effort="1" velocity="1"/></joint></robot>)";
-  const auto model = std::make_shared<const RobotModel>(parseUrdf(rail, "rail.urdf"));
+  const auto model = std::make_shared<const RobotModel>(
+      parseUrdf(robot(link("base") + link("b") + joint("x", "prismatic", "base", "b", "", 9)), "rail.urdf"));
   SmoothConstraint root;  // of 1 - q, which is NaN beyond 1
   root.name = "root";
   root.coordinates = {0};

@@ -28,7 +28,7 @@ struct Taken {
 
 // The bound without planes: the distance at the middle minus the largest change by each joint's lever.
 Taken byLevers(const ProofScene& scene, const PairEntry& entry, long most) {
-  PairSearch search(scene.kinematics, scene.geometry, entry.link1, entry.link2);
+  PairSearch search(scene.kinematics, scene.geometry, entry);
   const std::vector<int>& coordinates = search.coordinates();
   const Eigen::Map<const Eigen::VectorXd> levers(search.lipschitz().data(),
                                                  static_cast<Eigen::Index>(search.lipschitz().size()));
