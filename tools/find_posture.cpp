@@ -22,7 +22,7 @@ using namespace fcl_stpbv::detail;
 using namespace fcl_stpbv::report;
 using namespace fcl_stpbv::tools;
 
-enum Exit { kFeasible = 0, kInfeasible = 1, kUsage = 2, kPartly = 3 };
+enum Exit { kFeasible = 0, kInfeasible = 1, kPartly = 3 };
 
 constexpr const char* kProgram = "find_posture";
 constexpr const char* kDescription =

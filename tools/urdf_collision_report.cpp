@@ -18,7 +18,7 @@ using namespace fcl_stpbv::detail;
 using namespace fcl_stpbv::report;
 using namespace fcl_stpbv::tools;
 
-enum Exit { kClear = 0, kCollision = 1, kUsage = 2, kPartly = 3 };
+enum Exit { kClear = 0, kCollision = 1, kPartly = 3 };
 
 constexpr const char* kProgram = "urdf_collision_report";
 constexpr const char* kDescription =

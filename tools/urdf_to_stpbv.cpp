@@ -12,7 +12,7 @@ using namespace fcl_stpbv;
 using namespace fcl_stpbv::report;
 using namespace fcl_stpbv::tools;
 
-enum Exit { kDone = 0, kUsage = 2, kPartly = 3 };
+enum Exit { kDone = 0, kPartly = 3 };
 
 constexpr const char* kProgram = "urdf_to_stpbv";
 constexpr const char* kDescription =

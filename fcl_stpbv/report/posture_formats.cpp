@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "fcl_stpbv/formatted.h"
+#include "fcl_stpbv/report/json_values.h"
 #include "fcl_stpbv/report/text_table.h"
 #include "fcl_stpbv/text_cells.h"
 
@@ -94,9 +95,6 @@ std::string toText(const PostureReport& report) {
 
 std::string toJson(const PostureReport& report) {
   const Posture& posture = report.posture;
-  nlohmann::json q = nlohmann::json::object();
-  for (int i = 0; i < report.kinematics->size(); ++i)
-    q[report.kinematics->names()[static_cast<std::size_t>(i)]] = posture.q[i];
   nlohmann::json document{{"feasible", posture.feasible},
                           {"status", posture.status},
                           {"seconds", posture.seconds},
@@ -107,7 +105,7 @@ std::string toJson(const PostureReport& report) {
                           {"pairs", report.pairs.size()},
                           {"parts", partsOf(report)},
                           {"cost", posture.cost},
-                          {"q", q},
+                          {"q", byName(posture.q, *report.kinematics)},
                           {"warnings", report.warnings},
                           {"skipped", report.skipped},
                           {"violations", list(posture.violations)},

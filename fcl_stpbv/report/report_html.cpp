@@ -7,6 +7,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "fcl_stpbv/report/json_values.h"
 #include "fcl_stpbv/report/outline.h"
 #include "fcl_stpbv/report/packed_text.h"
 #include "fcl_stpbv/report/page_files.h"
@@ -50,8 +51,8 @@ nlohmann::json shapeOf(const fcl::CollisionGeometryd& geometry) {
       corners.push_back(static_cast<std::uint16_t>(step[i] > 0 ? std::lround((v[i] - low[i]) / step[i]) : 0));
   for (const auto& t : mesh.triangles)
     for (const int v : t) triangles.push_back(static_cast<std::uint16_t>(v));
-  return {{"low", {low.x(), low.y(), low.z()}},
-          {"step", {step.x(), step.y(), step.z()}},
+  return {{"low", numbers(low)},
+          {"step", numbers(step)},
           {"corners", base64(corners)},
           {"triangles", base64(triangles)}};
 }
@@ -134,7 +135,7 @@ class Joints {
   // Adds the motions of the joint that was added last. `coordinate` is the first of its coordinates.
   void move(JointType type, const Eigen::Vector3d& axis, int coordinate, const Mimic& by = {-1, 1, 0}) {
     const auto add = [&](const char* what, const Eigen::Vector3d& along) {
-      list.back()[what].push_back({{"axis", {along.x(), along.y(), along.z()}},
+      list.back()[what].push_back({{"axis", numbers(along)},
                                    {"coordinate", coordinate++},
                                    {"multiplier", by.multiplier},
                                    {"offset", by.offset}});
@@ -188,7 +189,7 @@ void addMarks(const TaskMarks& marks, nlohmann::json& data) {
                                {"turned", mark.turned}});
   for (const ContactMark& mark : marks.contacts) {
     nlohmann::json points = nlohmann::json::array();
-    for (const Eigen::Vector3d& point : mark.points) points.push_back({point.x(), point.y(), point.z()});
+    for (const Eigen::Vector3d& point : mark.points) points.push_back(numbers(point));
     data["contacts"].push_back({{"link", mark.link}, {"points", std::move(points)}});
   }
 }

@@ -8,12 +8,6 @@
 namespace fcl_stpbv::report {
 namespace {
 
-nlohmann::json joints(const Eigen::VectorXd& q, const Kinematics& kinematics) {
-  nlohmann::json json = nlohmann::json::object();
-  for (int i = 0; i < kinematics.size(); ++i) json[kinematics.names()[static_cast<std::size_t>(i)]] = q[i];
-  return json;
-}
-
 nlohmann::json trajectoryJson(const CollisionReport& report) {
   if (!report.trajectory) return {};
   const TrajectoryReport& t = *report.trajectory;
@@ -118,7 +112,7 @@ nlohmann::json pairJson(const CollisionReport& report, const PairReport& pair) {
           {"time", orNull(pair.time)},
           {"verdict", orNull(verdictAlong(report, pair))},
           {"min_distance", orNull(pair.minDistance)},
-          {"closest", joints(pair.closest, *report.kinematics)},
+          {"closest", byName(pair.closest, *report.kinematics)},
           {"probability_bound", pair.probabilityBound},
           {"security_distance", pair.security},
           {"influence_distance", pair.influence}};
@@ -132,7 +126,7 @@ std::string toJson(const CollisionReport& report) {
   json["pose"] = orNull(report.pose);
   json["neutral"] = {{"colliding", report.neutral.colliding}};
   if (report.neutral.better.size() > 0)
-    json["neutral"].update({{"better", joints(report.neutral.better, *report.kinematics)},
+    json["neutral"].update({{"better", byName(report.neutral.better, *report.kinematics)},
                             {"better_state", report.neutral.state},
                             {"better_colliding", report.neutral.collidingThere}});
   json["trajectory"] = trajectoryJson(report);
