@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "fcl_stpbv/error.h"
-#include "fcl_stpbv/robot/share_out.h"
+#include "fcl_stpbv/robot/worker_pool.h"
 #include "tools/conversion.h"
 #include "tools/cores.h"
 #include "tools/number_check.h"

@@ -1,7 +1,5 @@
 // Checks a COLLADA document for errors that assimp ignores: a second unit, shapes and nodes that do not
 // exist, and transforms that assimp does not know.
-#include "fcl_stpbv/robot/collada_check.h"
-
 #include <tinyxml2.h>
 
 #include <algorithm>
@@ -12,6 +10,7 @@
 #include "fcl_stpbv/robot/collada_arrays.h"
 #include "fcl_stpbv/robot/collada_transforms.h"
 #include "fcl_stpbv/robot/collada_values.h"
+#include "fcl_stpbv/robot/mesh_checks.h"
 #include "fcl_stpbv/robot/mesh_lines.h"
 #include "fcl_stpbv/robot/xml_text.h"
 #include "fcl_stpbv/words.h"

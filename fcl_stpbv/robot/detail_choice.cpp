@@ -13,7 +13,7 @@
 #include "fcl_stpbv/adapter/fcl_shapes.h"
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/numbers.h"
-#include "fcl_stpbv/robot/share_out.h"
+#include "fcl_stpbv/robot/worker_pool.h"
 
 namespace fcl_stpbv::detail {
 namespace {

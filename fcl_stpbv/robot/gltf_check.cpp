@@ -1,7 +1,5 @@
 // Checks the meshes and nodes of a glTF document. assimp copies the bytes of vertices as floats whatever
 // their type is, leaves out triangles with wrong indices, and knows few extensions.
-#include "fcl_stpbv/robot/gltf_check.h"
-
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -10,6 +8,7 @@
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/robot/gltf_values.h"
 #include "fcl_stpbv/robot/json_text.h"
+#include "fcl_stpbv/robot/mesh_checks.h"
 #include "fcl_stpbv/words.h"
 
 namespace fcl_stpbv::detail {

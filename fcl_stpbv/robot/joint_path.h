@@ -12,8 +12,8 @@ namespace fcl_stpbv::detail {
 /// are included.
 struct JointPath {
   std::vector<int> joints;
-  std::size_t up =
-      0;  ///< this many at the front are passed from child to parent, the others from parent to child
+  /// This many at the front are passed from child to parent, the others from parent to child.
+  std::size_t up = 0;
 };
 
 JointPath jointPath(const RobotModel& robot, int link1, int link2);

@@ -12,8 +12,8 @@
 #include "fcl_stpbv/robot/link_geometry.h"
 #include "fcl_stpbv/robot/link_volume.h"
 #include "fcl_stpbv/robot/passing_error.h"
-#include "fcl_stpbv/robot/share_out.h"
 #include "fcl_stpbv/robot/volume_cache.h"
+#include "fcl_stpbv/robot/worker_pool.h"
 
 namespace fcl_stpbv {
 namespace {

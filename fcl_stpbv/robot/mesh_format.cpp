@@ -13,10 +13,8 @@
 
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/robot/file_ending.h"
-#include "fcl_stpbv/robot/gltf_check.h"
+#include "fcl_stpbv/robot/mesh_checks.h"
 #include "fcl_stpbv/robot/mesh_lines.h"
-#include "fcl_stpbv/robot/ply_check.h"
-#include "fcl_stpbv/robot/text_mesh_check.h"
 #include "fcl_stpbv/words.h"
 
 namespace fcl_stpbv::detail {

@@ -1,10 +1,9 @@
 // Checks OFF text against its header. Without this check, assimp replaces a wrong index by another one, and
 // reads each line after the header as the next vertex or face.
-#include "fcl_stpbv/robot/off_check.h"
-
 #include <algorithm>
 #include <cctype>
 
+#include "fcl_stpbv/robot/mesh_checks.h"
 #include "fcl_stpbv/robot/mesh_lines.h"
 
 namespace fcl_stpbv::detail {

@@ -23,7 +23,7 @@
 #include "fcl_stpbv/robot/pair_search.h"
 #include "fcl_stpbv/robot/pair_tree.h"
 #include "fcl_stpbv/robot/search_room.h"
-#include "fcl_stpbv/robot/share_out.h"
+#include "fcl_stpbv/robot/worker_pool.h"
 
 namespace fcl_stpbv {
 namespace {

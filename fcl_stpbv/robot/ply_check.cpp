@@ -1,6 +1,4 @@
 // Checks a PLY file against its own header before assimp reads it: sizes, counts, the length of the data.
-#include "fcl_stpbv/robot/ply_check.h"
-
 #include <algorithm>
 #include <cctype>
 #include <charconv>
@@ -10,6 +8,7 @@
 #include <vector>
 
 #include "fcl_stpbv/error.h"
+#include "fcl_stpbv/robot/mesh_checks.h"
 #include "fcl_stpbv/robot/mesh_lines.h"
 
 namespace fcl_stpbv::detail {

@@ -1,15 +1,12 @@
 // Checks OBJ and STL text line by line for errors that assimp ignores.
-#include "fcl_stpbv/robot/text_mesh_check.h"
-
 #include <algorithm>
 #include <charconv>
 #include <iterator>
 #include <set>
 
 #include "fcl_stpbv/error.h"
-#include "fcl_stpbv/robot/collada_check.h"
+#include "fcl_stpbv/robot/mesh_checks.h"
 #include "fcl_stpbv/robot/mesh_lines.h"
-#include "fcl_stpbv/robot/off_check.h"
 
 namespace fcl_stpbv::detail {
 namespace {

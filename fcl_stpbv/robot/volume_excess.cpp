@@ -3,7 +3,7 @@
 #include "fcl_stpbv/parts/mesh_solid.h"
 #include "fcl_stpbv/robot/keyed_mesh.h"
 #include "fcl_stpbv/robot/link_geometry.h"
-#include "fcl_stpbv/robot/share_out.h"
+#include "fcl_stpbv/robot/worker_pool.h"
 
 namespace fcl_stpbv {
 namespace {

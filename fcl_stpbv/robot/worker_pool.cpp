@@ -1,6 +1,7 @@
 // A fixed set of threads that wait on a condition variable, so that sharing out work allocates nothing.
 #include "fcl_stpbv/robot/worker_pool.h"
 
+#include <algorithm>
 #include <exception>
 
 namespace fcl_stpbv::detail {
@@ -68,6 +69,13 @@ void WorkerPool::serve(int k) {
     lock.lock();
     if (--busy_ == 0) end_.notify_one();
   }
+}
+
+void shareOut(std::size_t count, int threads, const std::function<void(std::size_t)>& each,
+              const std::function<void(std::size_t)>& begun) {
+  WorkerPool(static_cast<int>(std::min<std::size_t>(count, static_cast<std::size_t>(std::max(1, threads)))))
+      .share(
+          count, [&](int, std::size_t i) { each(i); }, begun);
 }
 
 }  // namespace fcl_stpbv::detail

@@ -79,4 +79,8 @@ class WorkerPool {
   bool stop_ = false;
 };
 
+/// Calls `each(i)` as WorkerPool::share() does, with up to `threads` threads for this call alone.
+void shareOut(std::size_t count, int threads, const std::function<void(std::size_t)>& each,
+              const std::function<void(std::size_t)>& begun = nullptr);
+
 }  // namespace fcl_stpbv::detail

@@ -19,7 +19,6 @@
 #include "fcl_stpbv/adapter/fcl_shapes.h"
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/robot/batch.h"
-#include "fcl_stpbv/robot/share_out.h"
 #include "fcl_stpbv/robot/worker_pool.h"
 #include "test/reference/robots.h"
 
