@@ -3,15 +3,20 @@
 #include "test/reference/robots.h"
 
 #include <algorithm>
+#include <map>
 
 namespace fcl_stpbv::test {
 
-LoadedRobot load(const TestRobot& robot, GeometryOptions options) {
+LoadedRobot load(const TestRobot& robot) {
+  static std::map<std::string, LoadedRobot> known;  // by URDF
+  const auto before = known.find(robot.urdf);
+  if (before != known.end()) return before->second;
+  GeometryOptions options;
   options.packagePath = robot.packagePath;
   options.cacheFolder.clear();
   auto model = std::make_shared<const RobotModel>(loadUrdf(robot.urdf));
   RobotGeometry geometry = loadGeometry(*model, options);
-  return {model, std::move(geometry)};
+  return known[robot.urdf] = {model, std::move(geometry)};
 }
 
 LoadedRobot parsed(const std::string& urdf, GeometryOptions options) {

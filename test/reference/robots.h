@@ -26,9 +26,10 @@ struct LoadedRobot {
   RobotGeometry geometry;
 };
 
-/// Loads a robot without a cache, so that tests leave no files behind.
-LoadedRobot load(const TestRobot& robot, GeometryOptions options = {});
-/// The robot of a URDF's text, loaded in the same way.
+/// Loads a robot without a cache, so that tests leave no files behind. A program builds each robot's volumes
+/// once: later calls share them. From one thread only.
+LoadedRobot load(const TestRobot& robot);
+/// The robot of a URDF's text, loaded without a cache, too.
 LoadedRobot parsed(const std::string& urdf, GeometryOptions options = {});
 
 /// The arguments of CollisionConstraints: all pairs except those that the SRDF leaves out, or those of
