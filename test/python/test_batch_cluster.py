@@ -1,4 +1,5 @@
 """A batch on a real scheduler with two workers, each a process that can be killed."""
+import functools
 import json
 import os
 import pathlib
@@ -35,7 +36,7 @@ def many_jobs(kind, folder):
     if kind == "sample":
         return SAMPLE
     if kind == "prove":
-        return ["prove", ARM, "--budget", 10, "--boxes", 2000, "--descents", 1]
+        return ["prove", ARM, "--budget", 10, "--boxes", 500, "--descents", 1]
     if kind == "convert":
         meshes = [folder / f"{i}.stl" for i in range(60)]
         for mesh in meshes:
@@ -78,16 +79,20 @@ class Batch:
         return {path.name: path.read_bytes() for path in (self.folder / "volumes").glob("*")}
 
 
-@pytest.fixture(scope="module", params=["prove", "sample", "postures", "grid", "convert"])
-def some(request, tmp_path_factory):
-    return Batch(request.param, tmp_path_factory.mktemp(request.param))
-
-
 @pytest.fixture(scope="module")
-def expected(tmp_path_factory):
-    path = tmp_path_factory.mktemp("one") / "out"
-    assert start(*SAMPLE, "--jobs", 1, "-o", path, program=cold_start).wait(timeout=100) == 0
-    return path.read_bytes()
+def batch_of(tmp_path_factory):
+    """Makes the batch of a kind, once."""
+    return functools.cache(lambda kind: Batch(kind, tmp_path_factory.mktemp(kind)))
+
+
+@pytest.fixture(params=["prove", "sample", "postures", "grid", "convert"])
+def some(request, batch_of):
+    return batch_of(request.param)
+
+
+@pytest.fixture
+def expected(batch_of):
+    return batch_of("sample").expected
 
 
 def wait_for_lines(path, count, process):
@@ -184,7 +189,7 @@ def test_a_process_that_dies_while_it_starts_is_not_waited_for_for_ever(tmp_path
     # Dask is not told about a process that is killed then.
     broken = ("import asyncio, sys, distributed, fcl_stpbv.batch.__main__ as batch\n"
               "cluster = distributed.LocalCluster\n"
-              "def soon(*workers, death_timeout, **more): return cluster(*workers, death_timeout='3s', **more)\n"
+              "def soon(*workers, death_timeout, **more): return cluster(*workers, death_timeout='1s', **more)\n"
               "async def unheard(self, uid): await asyncio.sleep(1000)\n"
               "distributed.LocalCluster, distributed.nanny.WorkerProcess._wait_until_connected = soon, unheard\n"
               "sys.exit(batch.main())")
