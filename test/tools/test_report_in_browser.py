@@ -136,14 +136,16 @@ class Page(unittest.TestCase):
     def path(self, name):
         return os.path.join(self.folder.name, name)
 
-    def humanoid(self, *arguments, view=""):
+    def humanoid(self, *arguments, view="", shown=True):
+        """Opens the humanoid's page; without `shown` it is only there, for reopen()."""
         if arguments or not os.path.exists(self.path("humanoid.html")):
             self.open(ROBOT + ".urdf", "--srdf", ROBOT + ".srdf", "--pose", "zero", *arguments, view=view)
             if not arguments:  # most tests ask for this page: made once
                 shutil.copy(self.path("report.html"), self.path("humanoid.html"))
         else:
             shutil.copy(self.path("humanoid.html"), self.path("report.html"))
-            self.show(view)
+            if shown:
+                self.show(view)
         return os.path.getsize(self.path("report.html"))
 
     def put(self, name, text):
@@ -310,11 +312,15 @@ class Page(unittest.TestCase):
         pair = self.script(f"return [scene.report.pairs[{chosen}].link1, scene.report.pairs[{chosen}].link2]")
         self.assertIn("LARM_LINK6", pair)
 
-    def test_any_name_stays_text_and_warnings_are_shown(self):
+    def test_any_name_stays_text_is_shortened_where_it_is_like_others_and_warnings_are_shown(self):
         self.open(self.put("names.urdf", primitives(4)), "--pose", self.put("pose.json", "{}"), "--primitives", "flat")
         self.assertIn(UGLY, [name for row in self.rows() for name in row[:2]])
         self.assertIn("no smooth body", self.browser.find_element(By.ID, "warnings").text)
         self.assertEqual(self.script("return document.querySelectorAll('#table b, #detail script').length"), 0)
+        self.assertEqual(self.script("""
+          const shorten = shortener(['left_arm_segment_1_of_the_hand', 'left_arm_segment_22_of_the_hand']);
+          const most = length => shorten('left_arm_segment_22_of_the_hand', text => text.length <= length);
+          return [40, 20, 10, 4].map(most);"""), ["left_arm_segment_22_of_the_hand", "…ment_22_of_the_hand", "…22_of_th…", "…22…"])
         # All four are drawn. A box has the fewest corners: eight with three normals each.
         self.assertEqual(self.script("return Math.min(...scene.bodies.map(m => m.geometry.attributes.position.count))"), 24)
         self.assertEqual(self.script("return scene.bodies.length"), 4)
@@ -435,19 +441,6 @@ class Page(unittest.TestCase):
         self.assertIn("within 900 mm", self.browser.find_element(By.ID, "legend").text)
         self.assertNotIn("in collision", self.script("return document.body.innerText + document.getElementById('state').textContent"))
 
-    def test_names_are_shortened_where_they_are_alike(self):
-        self.humanoid()
-        self.assertEqual(self.script("""
-          const shorten = shortener(['left_arm_segment_1_of_the_hand', 'left_arm_segment_22_of_the_hand']);
-          const most = length => shorten('left_arm_segment_22_of_the_hand', text => text.length <= length);
-          return [40, 20, 10, 4].map(most);"""), ["left_arm_segment_22_of_the_hand", "…ment_22_of_the_hand", "…22_of_th…", "…22…"])
-
-    def test_an_address_changed_in_an_open_page_opens_that_view(self):
-        self.humanoid()
-        self.script("location.hash = '#pair=7&show=pair'")
-        self.await_script("return document.body.dataset.selected === '7'")
-        self.assertEqual(self.script("return scene.bodies.filter(m => m.visible).length"), 2)
-
     def test_a_posture_is_copied_without_a_clipboard_too(self):
         self.humanoid()
         self.script("Object.defineProperty(navigator, 'clipboard', { value: undefined })")
@@ -470,14 +463,20 @@ class Page(unittest.TestCase):
                                     "map.colour(p) === scaleColour(Math.max(0, Math.min(1, p.distance / map.far))))"))
         self.assertIn("overlap", [row[3] for row in self.rows()])
 
-    def test_a_view_of_a_pair_that_is_not_there_shows_the_first(self):
+    def test_an_address_opens_its_view_later_too_and_the_first_pair_if_there_is_no_such_pair(self):
         self.humanoid(view="#pair=9999&show=pair")
         self.assertEqual(self.script("return document.body.dataset.selected"), "0")
+        self.assertEqual(self.script("return scene.bodies.filter(m => m.visible).length"), 2)
+        self.script("location.hash = '#pair=7'")
+        self.await_script("return document.body.dataset.selected === '7'")
+        self.assertEqual(self.script("return scene.bodies.filter(m => m.visible).length"), 31)
+        self.script("location.hash = '#pair=8&show=pair'")
+        self.await_script("return document.body.dataset.selected === '8'")
         self.assertEqual(self.script("return scene.bodies.filter(m => m.visible).length"), 2)
 
     def test_a_page_without_pairs_opens(self):
         # The tools refuse an empty report, but a page whose data has no pairs must still open.
-        self.humanoid()
+        self.humanoid(shown=False)
         self.reopen(lambda data: data["pairs"].clear())
         self.assertIn("no pairs", self.browser.find_element(By.ID, "nothing").text)
         self.assertGreater(self.pixels()["link"], 5000)
@@ -507,7 +506,7 @@ class Page(unittest.TestCase):
         self.assertIn("overlap", self.script("return document.querySelector('#table th[data-key=hull_distance]').title"))
 
     def test_long_names_of_links_differ_and_a_click_shows_their_pairs(self):
-        self.humanoid()
+        self.humanoid(shown=False)
         self.reopen(lambda data: [link.update(name=f"mobile_manipulator_robot_with_two_arms_{link['name']}") for link in data["links"]])
         names = self.script("return [...document.querySelectorAll('#linktable tbody tr')].map(({ cells: [name] }) => "
                             "[name.textContent, name.title, name.scrollWidth <= name.clientWidth])")
@@ -568,7 +567,7 @@ class Page(unittest.TestCase):
         self.assertEqual(len(below), 2)
 
     def test_a_verdict_over_all_postures_is_not_mixed_with_this_one(self):
-        self.humanoid()
+        self.humanoid(shown=False)
         self.reopen(lambda data: data["pairs"][0].update(reason="always"))
         self.assertIn("nearly always", self.rows()[0])
         self.assertIn("clear", self.detail())
@@ -629,7 +628,7 @@ class Page(unittest.TestCase):
         self.assertEqual(self.script("return document.title"), "hrp2_style: self-collision report")
 
     def test_the_cause_filter_keeps_the_pairs_of_one_cause(self):
-        self.humanoid()
+        self.humanoid(shown=False)
         causes = ["meshes meet", "hull only", "margin only"]
         self.reopen(lambda data: [pair.update(cause=causes[i % 3]) for i, pair in enumerate(data["pairs"])])
         Select(self.browser.find_element(By.ID, "cause")).select_by_value("hull only")
