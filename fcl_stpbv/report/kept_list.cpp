@@ -1,5 +1,5 @@
 // The key of a list in the cache is the text of all inputs of the search: the tree of joints, each body with
-// its pose, the SRDF's reasons, the obstacles and the options. A list is stored as the numbers of its
+// its pose, the SRDF's pairs, the obstacles and the options. A list is stored as the numbers of its
 // entries.
 #include "fcl_stpbv/report/kept_list.h"
 
@@ -39,8 +39,9 @@ class Question {
     for (const LinkPair& pair : geometry.byParts) add(pair.link1, pair.link2, pair.obstacle);
     if (!geometry.incomplete.empty()) text_ += "incomplete\n";
     for (const int link : geometry.incomplete) add(link);
-    text_ += "srdf\n";
-    if (srdf) reasons(kinematics.robot(), *srdf);
+    // An SRDF without pairs is not the same as none: it has adjacent links searched.
+    text_ += srdf ? "srdf\n" : "no srdf\n";
+    if (srdf) skipped(kinematics.robot(), *srdf);
     for (const Obstacle& obstacle : options.obstacles) {
       add(obstacle.radius());
       add(obstacle.centre());
@@ -100,14 +101,16 @@ class Question {
     }
   }
 
-  void reasons(const RobotModel& robot, const Srdf& srdf) {
+  // The search asks whether a pair is left out, and whether by the user. Other reasons are any text, even of
+  // several lines, so they would not be safe here.
+  void skipped(const RobotModel& robot, const Srdf& srdf) {
     const SkipReasons known(&srdf);
     for (std::size_t i = 0; i < robot.links.size(); ++i)
       for (std::size_t j = i + 1; j < robot.links.size(); ++j) {
         const std::string reason = known.of(robot.links[i].name, robot.links[j].name);
         if (reason.empty()) continue;
-        add(static_cast<double>(i), static_cast<double>(j));
-        text_ += reason + "\n";
+        add(static_cast<double>(i), static_cast<double>(j), reason == "User");
+        text_ += '\n';
       }
   }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "fcl_stpbv/error.h"
+#include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/report/kept_list.h"
 #include "test/reference/robots.h"
 #include "test/reference/volume_files.h"
@@ -33,14 +34,42 @@ bool isSame(const std::vector<PairEntry>& a, const std::vector<PairEntry>& b) {
   });
 }
 
-}  // namespace
-
-TEST_CASE("a pair list of numbers that cannot be one is searched anew") {
-  const Problem p = problem(robots()[0]);
+PairListOptions fewSamples() {
   PairListOptions options;
   options.samples = 60;
   options.descents = options.randomDescents = 0;
   options.proofBoxes = 0;
+  return options;
+}
+
+}  // namespace
+
+TEST_CASE("a list is kept apart from that of an SRDF that leaves out other pairs, or none") {
+  const Problem p = problem(robots()[0]);
+  REQUIRE(p.geometry->bodies.size() > 2);
+  const auto name = [&](std::size_t body) {
+    return p.model->links[detail::at(p.geometry->bodies[body].link)].name;
+  };
+  const auto index = [&](std::size_t body) { return std::to_string(p.geometry->bodies[body].link); };
+  Srdf never, user, oneReason;
+  never.disabled = {{name(0), name(1), "Never"}};
+  user.disabled = {{name(0), name(1), "Never"}, {name(0), name(2), "User"}};
+  oneReason.disabled = {{name(0), name(1), "Never\n" + index(0) + " " + index(2) + " User"}};
+  const Srdf noPair;
+  const PairListOptions options = fewSamples();
+  for (const auto& [first, second] : std::vector<std::pair<const Srdf*, const Srdf*>>{
+           {nullptr, &noPair}, {&noPair, nullptr}, {&noPair, &never}, {&never, &user}, {&user, &oneReason}}) {
+    const TemporaryFolder folder;
+    VolumeCache cache(folder / "a");
+    report::keptPairList(p.kinematics, p.geometry, first, options, cache);
+    CHECK(isSame(report::keptPairList(p.kinematics, p.geometry, second, options, cache),
+                 pairList(p.kinematics, p.geometry, second, options)));
+  }
+}
+
+TEST_CASE("a pair list of numbers that cannot be one is searched anew") {
+  const Problem p = problem(robots()[0]);
+  const PairListOptions options = fewSamples();
   const TemporaryFolder folder;
   const auto kept = [&] {
     VolumeCache cache(folder / "a");

@@ -785,9 +785,10 @@ class Report(ToolCase):
         user = self.put("user.srdf", '<robot name="small"><disable_collisions link1="a" link2="c" reason="User"/></robot>')
         scene = self.put("scene.urdf", '<robot name="scene"><link name="ball"><collision><origin xyz="0 0 2"/><geometry>'
                                        '<sphere radius="0.1"/></geometry></collision></link></robot>')
+        none = self.put("none.srdf", '<robot name="small"/>')
         other = self.put("neutral.json", '{"one": 0.5}')
         for count, change in enumerate(([arm(), "--seed", "2"], [arm(), "--samples", "100"], [arm(), "--margin", "0.01"],
-                                        [arm(), "-r", "0.01"], [arm(), "--srdf", user], [arm(), "--obstacles", scene],
+                                        [arm(), "-r", "0.01"], [arm(), "--srdf", user], [arm(), "--srdf", none], [arm(), "--obstacles", scene],
                                         [arm(), "--neutral", other], ["2"], ["1", "0 0 0.4"])):
             if not os.path.isabs(change[0]):
                 change = [arm(*change)]
