@@ -90,7 +90,7 @@ void explain(const std::vector<CheckedPair>& bodies, double margin, PairCauses& 
     pair.meshDistance = found.meshDistance;
     pair.cause = found.cause;
   }
-  if (pair.cause.empty() && pair.contradictsSrdf)
+  if (pair.contradictsSrdf && (pair.cause.empty() || pair.configuration != pair.closest))
     pair.cause = causes.explain(bodies, pair.closest, margin).cause;
 }
 
@@ -135,7 +135,10 @@ void examine(const ReportRequest& request, const PairListOptions& search, const 
       throw Error(report.robot->path + ": the distance of " + pair.link1 + " and " + pair.link2 +
                   " cannot be computed; look for numbers out of all proportion");
     pair.colliding |= pair.answer.distance <= search.margin;
-    pair.minDistance = std::min(pair.minDistance, pair.answer.distance);
+    if (pair.answer.distance < pair.minDistance) {
+      pair.minDistance = pair.answer.distance;
+      pair.closest = pair.configuration;
+    }
     if (const auto known = kept.find(pair.links); known != kept.end()) {
       pair.meshDistance = known->second.meshDistance;
       pair.cause = known->second.cause;

@@ -60,7 +60,7 @@ struct PairReport {
   /// Cause of the collision: "meshes meet", "hull only" or "margin only" (pair_cause.h). For a pair that
   /// contradicts the SRDF, the cause in the configuration `closest`. "" if there is neither.
   std::string cause;
-  double minDistance = 0;  ///< least distance that the search found (m)
+  double minDistance = 0;  ///< least distance that was found, by the search or in `configuration` (m)
   double probabilityBound = 1;
   double security = 0, influence = 0;
   Eigen::VectorXd configuration;  ///< configuration of `answer`

@@ -442,6 +442,32 @@ class Report(ToolCase):
         self.assertEqual(wrong.returncode, 2)
         self.assertIn("NOBODY", wrong.stderr)
 
+    def test_the_closest_configuration_is_that_of_the_least_distance(self):
+        """Two boxes that slide past each other. The search begins where they are apart, and its few samples miss the posture where they meet."""
+        box = self.boxes("box.obj", 0.05, (0, 0, 0))
+        joints = "".join(f'<joint name="{name}" type="prismatic"><parent link="{parent}"/><child link="{child}"/><axis xyz="{axis}"/>'
+                         '<limit lower="-3" upper="3" effort="1" velocity="1"/></joint>'
+                         for name, parent, child, axis in (("x", "a", "b", "1 0 0"), ("z", "b", "c", "0 0 1")))
+        far = link("far", '<sphere radius="0.1"/>') + joint("w", "a", "far", origin="0 9 0")
+        urdf = self.robot(link("a", box) + link("b") + link("c", box) + joints + far)
+        apart, meeting, way = self.put("apart.json", '{"x": 2, "z": 2}'), self.put("meeting.json", '{"x": 0.01, "z": 0}'), \
+            self.put("way.csv", "time,x,z\n0,-1,0\n1,0.01,0\n2,1,0\n")
+        never = self.put("never.srdf", '<robot name="small"><disable_collisions link1="a" link2="c" reason="Never"/></robot>')
+        search = urdf, "--neutral", apart, "--samples", "5", "--no-cache", "-q"
+
+        def distance_at(joints):
+            found = json.loads(self.run_tool(*search, "--pose", self.put("there.json", json.dumps(joints)), "--format", "json").stdout)
+            return found["pairs"][0]["distance"]
+
+        for posture in (["--pose", meeting], ["--trajectory", way]):
+            with self.subTest(posture=posture):
+                pair = json.loads(self.run_tool(*search, *posture, "--format", "json").stdout)["pairs"][0]
+                self.assertLess(pair["distance"], -0.1)
+                self.assertEqual(pair["min_distance"], pair["distance"])
+                self.assertAlmostEqual(distance_at(pair["closest"]), pair["min_distance"], delta=1e-12)
+        told = self.run_tool(*search, "--srdf", never, "--pose", meeting).stdout
+        self.assertRegex(told, r"leaves out a - c as Never; found: sometimes, meshes meet, -\d+\.\d+ mm at x=0\.0100 z=0\.0000")
+
     def wrong_srdf(self, pairs):
         """The arguments for the humanoid with an SRDF that leaves out {pair of links: reason}, and all others but one for the user's
         own reasons, so that the search has only these pairs."""
