@@ -24,10 +24,13 @@ using namespace detail;
 using nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
-// A posture may be a file, which is given by its digest, or the name of a state in the SRDF.
-ordered_json digestOf(const std::string& path) {
+// The inputs are read more than once, so a pipe is refused. A folder is refused where it is read as a file; a
+// state of the SRDF may have its name.
+void requireNoPipe(const std::string& path) {
   std::error_code ignored;
-  return fs::is_regular_file(path, ignored) ? ordered_json(sha256(readText(path))) : ordered_json(path);
+  if (path == "-" ||
+      (fs::exists(path, ignored) && !fs::is_regular_file(path, ignored) && !fs::is_directory(path, ignored)))
+    throw Error(path + ": is no regular file, and it is read more than once; save it as one first");
 }
 
 ordered_json optionsOf(const RobotConversion& conversion) {
@@ -60,11 +63,8 @@ ordered_json optionsOf(const RobotConversion& conversion) {
 // All inputs that determine the output. `read` receives the names of the files that were read.
 ordered_json inputsOf(const RobotConversion& conversion, std::vector<std::string>& read) {
   const RobotFiles& files = conversion.report.files;
-  for (const std::string& path : {files.urdf, files.srdf, files.obstacles}) {
-    std::error_code ignored;
-    if (path == "-" || (fs::exists(path, ignored) && !fs::is_regular_file(path, ignored)))
-      throw Error(path + ": is no regular file, and it is read more than once; save it as one first");
-  }
+  const std::string& neutral = conversion.report.neutral;
+  for (const std::string& path : {files.urdf, files.srdf, files.obstacles, neutral}) requireNoPipe(path);
   RobotLoader loader(files);
   loader.read();
   loader.faults().refuse(files.skipInvalid);
@@ -75,7 +75,7 @@ ordered_json inputsOf(const RobotConversion& conversion, std::vector<std::string
     inputs[what] = {{"file", path}, {"sha256", sha256(readText(path))}};
   };
   inputs["version"] = FCL_STPBV_VERSION;
-  inputs["writer"] = 5;  // changed when the same inputs give other files
+  inputs["writer"] = 6;  // changed when the same inputs give other files
   add("urdf", files.urdf);
   // The names of visual meshes and textures are written relative to the new folder, so the key changes if it
   // is moved.
@@ -84,7 +84,10 @@ ordered_json inputsOf(const RobotConversion& conversion, std::vector<std::string
   inputs["urdf"]["from_folder"] = fs::relative(home, fs::absolute(conversion.folder), ignored).string();
   add("srdf", files.srdf);
   add("obstacles", files.obstacles);
-  if (!conversion.report.neutral.empty()) inputs["neutral"] = digestOf(conversion.report.neutral);
+  if (fs::is_regular_file(neutral, ignored))
+    add("neutral", neutral);
+  else if (!neutral.empty())
+    inputs["neutral"] = {{"state", neutral}};  // of the SRDF
   for (const ShapeSources* sources : {&loader.shapes(), &loader.sceneShapes()}) {
     for (const ShapeSource& source : sources->shapes) {
       if (source.file.empty()) continue;
@@ -100,8 +103,9 @@ ordered_json inputsOf(const RobotConversion& conversion, std::vector<std::string
 // The report reads the inputs again after their key was computed. If one was saved meanwhile, the folder
 // would be up to date with a file that it was not made from.
 void requireUnchanged(const ordered_json& before, const ordered_json& after, const CollisionReport& report) {
-  for (const char* what : {"urdf", "srdf", "obstacles"})
-    if (before.contains(what) && before[what] != after[what]) refuseChanged(before[what]["file"]);
+  for (const char* what : {"urdf", "srdf", "obstacles", "neutral"})
+    if (before.contains(what) && before[what].contains("file") && before[what] != after[what])
+      refuseChanged(before[what]["file"]);
   const ordered_json meshes = before.value("meshes", ordered_json::array());
   const ordered_json again = after.value("meshes", ordered_json::array());
   for (std::size_t i = 0; i < meshes.size(); ++i)

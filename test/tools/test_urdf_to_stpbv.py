@@ -55,8 +55,8 @@ class Conversion(ToolCase):
     def run_tool(self, *arguments, tool=PROGRAM, **options):
         return self.run_command(tool, *arguments, **options)
 
-    def convert(self, *arguments):
-        return self.run_tool(self.place / "gate.urdf", "-o", self.out, "--samples", "50", *arguments)
+    def convert(self, *arguments, **options):
+        return self.run_tool(self.place / "gate.urdf", "-o", self.out, "--samples", "50", *arguments, **options)
 
     def report(self, urdf, *arguments):
         done = self.run_tool(urdf, "-r", "0.01", "--samples", "50", "--format", "json", *arguments, tool=REPORT)
@@ -251,6 +251,44 @@ class Conversion(ToolCase):
         self.assertEqual(self.convert("--skip-invalid").returncode, 3)  # up to date, but still incomplete
         for wrong in (("--parts", "0"), ("--parts", "65"), ("--parts", "some"), ("--jobs", "0"), ("-r", "-1"), ("--effort", "1")):
             self.assertEqual(self.convert(*wrong).returncode, 2, wrong)
+
+    def test_an_input_from_a_pipe_is_refused_as_it_is_read_more_than_once(self):
+        urdf = self.gate()
+        pose = self.pose({"turn": 0.5})
+        srdf = self.place / "gate.srdf"
+        srdf.write_text('<robot name="gate"><group name="g"><joint name="turn"/></group><group_state name="state" group="g">'
+                        '<joint name="turn" value="0.5"/></group_state></robot>')
+        for option, path in (("--neutral", pose), ("--srdf", srdf), ("--obstacles", urdf)):
+            with self.subTest(option=option):
+                self.refused(self.convert(option, "-", input=path.read_text()), "-: is no regular file")
+                reading, writing = os.pipe()
+                os.write(writing, path.read_bytes())
+                os.close(writing)
+                name = f"/dev/fd/{reading}"
+                self.refused(self.convert(option, name, pass_fds=[reading]), name + ": is no regular file")
+                os.close(reading)
+        self.assertFalse(self.out.exists())
+
+    def test_another_neutral_posture_is_another_robot(self):
+        self.gate()
+        srdf = self.place / "gate.srdf"
+        srdf.write_text('<robot name="gate"><group name="g"><joint name="turn"/></group><group_state name="state" group="g">'
+                        '<joint name="turn" value="0.5"/></group_state></robot>')
+        (self.folder / "state").mkdir()  # a folder of its name is no posture
+
+        def converted(*arguments):
+            done = self.convert(*arguments, cwd=self.folder)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            return "up to date" not in done.stdout
+
+        for angle in (0.5, 0.4):
+            self.assertTrue(converted("--neutral", self.pose({"turn": angle})))
+            self.assertFalse(converted("--neutral", self.folder / "pose.json"))
+        self.assertTrue(converted("--srdf", srdf, "--neutral", "state"))
+        self.assertFalse(converted("--srdf", srdf, "--neutral", "state"))
+        inside = self.out / "pose.json"
+        inside.write_text('{"turn": 0.5}')
+        self.refused(self.convert("--neutral", inside), "pose.json lies in it and is read")
 
     def test_a_damaged_urdf_is_refused_or_its_output_loads(self):
         urdf, dice = self.gate(), random.Random(5)
