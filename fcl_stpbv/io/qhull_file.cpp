@@ -40,10 +40,12 @@ bool isWhole(std::string_view word) {
 
 // How many numbers are on the line of counts: 3 for a polyhedron, 1 for a plain point file, 0 for neither.
 std::size_t countsOnSecondLine(std::string_view text) {
-  // qhull's input may have a comment after the dimension.
+  // qhull's input may have a comment after the dimension. A number there makes the line a point's.
   const std::vector<std::string_view> first = takeLine(text);
+  double ignored;
   const bool dimension =
-      !first.empty() && isWhole(first[0]) && (first.size() == 1 || !isWhole(first[1].substr(0, 1)));
+      !first.empty() && isWhole(first[0]) &&
+      (first.size() == 1 || !(isWhole(first[1].substr(0, 1)) || readDecimal(first[1], ignored)));
   const std::vector<std::string_view> second = takeLine(text);
   const bool counts = std::all_of(second.begin(), second.end(), isWhole);
   return dimension && counts && (second.size() == 1 || second.size() == 3) ? second.size() : 0;

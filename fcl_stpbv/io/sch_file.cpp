@@ -3,6 +3,7 @@
 // 2. Check the redundant data (sch_check.cpp); a contradiction is an error with its line.
 // 3. Build a volume from the file's vertices and faces, and compare the faces' reach with it.
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <ostream>
 #include <utility>
@@ -141,8 +142,10 @@ bool looksLikeSch(std::string_view text) {
   TextScanner in(text, "");
   try {
     const double r = in.number(""), R = in.number("");
-    in.count("", 1, 1);
-    return r >= 0 && R > r;
+    const int line = in.line();
+    in.integer("", 1, std::numeric_limits<int>::max());
+    const bool onItsOwn = in.line() > line && in.restOfLine().find_first_not_of(" \t\r") == std::string::npos;
+    return r >= 0 && R > r && onItsOwn;
   } catch (const Error&) {
     return false;
   }

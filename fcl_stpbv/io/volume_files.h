@@ -59,7 +59,7 @@ StpBv::Ptr loadSch(const std::string& path);
 /// loadSch() from a stream; `name` stands for the file in messages. @throws Error as above.
 StpBv::Ptr loadSch(std::istream& in, const std::string& name = "stream");
 
-/// Whether a text begins like a file of sch-core: a line with the two radii, then a line with a count.
+/// Whether a text begins like a file of sch-core: the two radii, then a line with nothing but a count.
 bool looksLikeSch(std::string_view text);
 
 }  // namespace fcl_stpbv

@@ -12,8 +12,9 @@
 namespace fcl_stpbv::detail {
 namespace {
 
+// The number of vertices comes first, so that no other mesh has the same text, and no cloud of points is it.
 std::string contentOf(const TriangleMesh& mesh) {
-  std::string content;
+  std::string content = std::to_string(mesh.vertices.size()) + " vertices\n";
   for (const Eigen::Vector3d& p : mesh.vertices) {
     appendVector(content, p);
     content += '\n';

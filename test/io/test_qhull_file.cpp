@@ -28,6 +28,8 @@ TEST_CASE("qhull polyhedra and point files give their points") {
   CHECK(looksLikeQhull(kPoints));
   CHECK_FALSE(looksLikeQhull("0.2 300\n8\n"));
   CHECK_FALSE(looksLikeQhull("1 10\n8\n"));
+  for (const std::string first : {"3 -1 -2", "3 .5 1", "3 +1 2", "3 1e3 2"})  // a line of points
+    CHECK_FALSE(looksLikeQhull(first + "\n4 0 0\n0 0 0\n"));
   CHECK_FALSE(looksLikeQhull("stpbv 1\n"));
   CHECK_FALSE(looksLikeQhull(""));
 }

@@ -118,6 +118,17 @@ TEST_CASE("a volume through sch-core's format is the same bit by bit") {
   }
 }
 
+TEST_CASE("sch-core's files are known by their first lines, however many vertices follow") {
+  for (const std::string text :
+       {"0.2 300\n 8\n", "0.2 300\r\n 8 \r\n", "0.2\n300\n8\n", "0 10\n2000000000\n", "0 10\n8"})
+    CHECK(looksLikeSch(text));
+  for (const std::string text : {"10 20 30\n11 20 30\n", "0 1 2\n", "0 10\n8 0 0\n", "0 10\n0\n", "10 1\n8\n",
+                                 "-1 1\n8\n", "0 10\n8.5\n", "0 10\n", ""}) {
+    INFO(text);
+    CHECK_FALSE(looksLikeSch(text));
+  }
+}
+
 TEST_CASE("a written file means the same surface to a reader of its numbers") {
   for (const auto& [name, volume] : volumesForSch()) {
     INFO(name);

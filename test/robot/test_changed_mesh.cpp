@@ -46,6 +46,17 @@ GeometryOptions withCache(const std::string& folder) {
   return options;
 }
 
+// Saves a glTF of one triangle, with its corners in a file beside it.
+void saveGltf(const TemporaryFolder& folder, float x) {
+  const float corners[] = {0, 0, 0, x, 0, 0, 0, 1, 0};
+  put(folder / "t.bin", std::string(reinterpret_cast<const char*>(corners), sizeof corners));
+  put(folder / "t.gltf",
+      R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],
+"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],
+"accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"}],
+"bufferViews":[{"buffer":0,"byteLength":36}],"buffers":[{"uri":"t.bin","byteLength":36}]})");
+}
+
 }  // namespace
 
 TEST_CASE("parts of a mesh that was saved meanwhile are refused, and nothing of it is kept") {
@@ -96,20 +107,17 @@ TEST_CASE("the volume of a mesh that was saved after its key was read is that of
 
 TEST_CASE("a glTF has changed if the file with its vertices has") {
   const TemporaryFolder folder;
-  const std::string json =
-      R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],
-"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],
-"accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"}],
-"bufferViews":[{"buffer":0,"byteLength":36}],"buffers":[{"uri":"t.bin","byteLength":36}]})";
-  const auto save = [&](float x) {
-    const float corners[] = {0, 0, 0, x, 0, 0, 0, 1, 0};
-    put(folder / "t.bin", std::string(reinterpret_cast<const char*>(corners), sizeof corners));
-  };
-  put(folder / "t.gltf", json);
-  save(1);
+  saveGltf(folder, 1);
   const KeyedMesh first(folder / "t.gltf", {1, 1, 1});
   CHECK(first.mesh().vertices.size() == 3);
   CHECK(KeyedMesh(folder / "t.gltf", {1, 1, 1}, first.key()).key() == first.key());
-  save(2);
+  saveGltf(folder, 2);
   CHECK_THROWS_AS(KeyedMesh(folder / "t.gltf", {1, 1, 1}, first.key()), PassingError);
+}
+
+TEST_CASE("a glTF's key is not that of a cloud of the same numbers") {
+  const TemporaryFolder folder;
+  saveGltf(folder, 1);
+  put(folder / "t.xyz", "0 0 0\n1 0 0\n0 1 0\n0 1 2\n");  // the corners, and the triangle's three numbers
+  CHECK(KeyedMesh(folder / "t.gltf", {1, 1, 1}).key() != KeyedMesh(folder / "t.xyz", {1, 1, 1}).key());
 }

@@ -443,6 +443,22 @@ class MeshToStpbv(ToolCase):
         self.put("odd.pts", "0 0 0\n1 0 0\n0 1\n")
         self.refused("odd.pts", "-o", "a.stpbv", says=["odd.pts:3: got 2 words, expected three coordinates"], code=1)
 
+    def test_points_whose_first_line_begins_like_another_format_are_read_as_points(self):
+        others = [(4, 0, 0), (3, 0, 0), (3, 1, 0), (3, 0, 1)]
+        # Two radii and a count, as sch-core's files have, and a dimension before counts, as qhull's have.
+        for first in ((10, 20, 30), (0, 1, 2), (3, -1, -2)):
+            text = "".join("%d %d %d\n" % point for point in [first, *others])
+            for name in ("cloud.txt", "cloud.xyz", "cloud", "-"):
+                with self.subTest(first=first, name=name):
+                    if name != "-":
+                        write(self.at(name), text)
+                    stdin = {"stdin": name} if name != "-" else {"stdin": "cloud"}
+                    done = self.run_tool(name, "-o", "cloud.stpbv", "-R", "1000", "--json", "--force", **stdin)
+                    self.assertEqual(json.loads(done.stdout)["points"], 5)
+            write(self.at("wrong.xyz"), text + "1 two 3\n")
+            self.refused("wrong.xyz", "-o", "new.stpbv", code=1, says=["wrong.xyz:6: got 'two', expected a coordinate"])
+        self.refused("cloud.xyz", "-o", "new.stpbv", "--scale", "1e-300", code=1, says=["cloud.xyz: "])
+
     def test_a_broken_mesh_from_a_pipe_and_a_device_are_refused(self):
         for command, says in (('echo solid | "$T" - -o a.stpbv', "-:1: .*endsolid"), ('"$T" /dev/zero -o a.stpbv', "device"),
                               ('echo nothing | "$T" - -o a.stpbv', "-: cannot be read as a mesh"), ('"$T" - -o a.stpbv < /dev/zero', "device"),
