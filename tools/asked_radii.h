@@ -5,6 +5,7 @@
 #include <string>
 
 #include "fcl_stpbv/volume/stp_bv.h"
+#include "tools/number_check.h"
 
 namespace fcl_stpbv::tools {
 
@@ -17,8 +18,8 @@ struct AskedRadii {
   /// What the options say, "" where they are not given; R is fitted then where r is.
   AskedRadii(const std::string& rText, const std::string& RText)
       : fitSmallRadius(rText == kAuto), fitBigRadius(RText.empty() ? fitSmallRadius : RText == kAuto) {
-    if (!rText.empty() && !fitSmallRadius) r = std::stod(rText);
-    if (!RText.empty() && !fitBigRadius) R = std::stod(RText);
+    if (!rText.empty() && !fitSmallRadius) r = numberIn(rText);
+    if (!RText.empty() && !fitBigRadius) R = numberIn(RText);
   }
 
   bool fits() const { return fitSmallRadius || fitBigRadius; }

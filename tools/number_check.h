@@ -18,6 +18,9 @@ using fcl_stpbv::detail::kLargestR;
 /// Larger than any length or time of a robot (m, s).
 constexpr double kLargest = 1e6;
 
+/// The number in a text that wrongNumber() accepts.
+inline double numberIn(const std::string& text) { return std::strtod(text.c_str(), nullptr); }
+
 /// The reason why `text` is not a number from `least` to `most`, "" if it is one. `least` itself is allowed
 /// only with `orEqual`.
 inline std::string wrongNumber(const std::string& text, double least, double most, bool orEqual = true) {
@@ -26,7 +29,9 @@ inline std::string wrongNumber(const std::string& text, double least, double mos
   // strtod() also reads hexadecimal numbers.
   const bool decimal = text.find_first_of("xX") == std::string::npos;
   const bool isNumber = !text.empty() && decimal && end == text.c_str() + text.size() && std::isfinite(value);
-  const bool lost = isNumber && value == 0 && text.find_first_of("123456789") < text.find_first_of("eE");
+  // So near to zero a double has few digits or none.
+  const bool lost = isNumber && std::abs(value) < std::numeric_limits<double>::min() &&
+                    text.find_first_of("123456789") < text.find_first_of("eE");
   if (isNumber && !lost && value <= most && (orEqual ? value >= least : value > least)) return "";
   return "got " + (text.empty() ? "nothing" : text) + (lost ? ", too small for a double" : "") +
          detail::formatted(", expected a number from %g to %g", least, most) +

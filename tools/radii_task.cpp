@@ -39,7 +39,7 @@ RadiiTask radiiTask(const std::string& text) {
     const double least = key == "clearance" || key == "acceleration" ? kLeast : 0;
     const std::string wrong = wrongNumber(value, least, kLargest);
     if (!wrong.empty()) throw UsageError("--advise " + text + ": " + key + ": " + wrong);
-    *number->second = std::stod(value);
+    *number->second = numberIn(value);
   }
   return task;
 }

@@ -84,7 +84,7 @@ void describeBodies(Program& app, RobotArguments& a) {
 double lengthOf(const std::string& option, const std::string& text, double most, bool orZero) {
   const std::string wrong = wrongNumber(text, 0, most, orZero);
   if (!wrong.empty()) throw Error(option + ": " + wrong);
-  return std::stod(text);
+  return numberIn(text);
 }
 
 // Reads "NAME=r,R" or "NAME=r,R,OVER_COVER". The name may contain '='; the last one counts.

@@ -113,7 +113,7 @@ class MeshToStpbv(ToolCase):
         self.refused("cube.txt", "-o", "new.stpbv", "--advise", "clearance=0.001,period=1", code=1, says=["cube.txt", "shorter period"])
         self.refused("cube.stpbv", "-o", "new.stpbv", "--advise", task, code=1, says=["cube.stpbv", "is an STP-BV already"])
         for wrong in ("", "clearance", "clearance=0.6,", "clearance=0.6,clearance=0.7", "others=flat,others=flat",
-                      "clearance=x", "clearance=0", "clearance=1e-10", "acceleration=1e-300",
+                      "clearance=x", "clearance=0", "clearance=1e-10", "acceleration=1e-300", "speed=1e-310",
                       "clearance=nan", "speed=-1", "fast=1", "others=square", ","):
             self.refused("cube.txt", "-o", "new.stpbv", "--advise", wrong, says=["--advise"])
         for other in (["-r", "1"], ["-R", "10"], ["--parts", "2"], ["--excess", "0.1"]):

@@ -198,7 +198,7 @@ class Doors(ToolCase):
             self.refuses(REPORT, self.good, "--seed", value, names=["--seed"])
             self.refuses(POSTURE, self.good, self.task, "--seed", value, names=["--seed"])
         for command in ([REPORT, self.good], [POSTURE, self.good, self.task]):
-            for values in ("nan,1", "-0.1,1", "0.01,inf", "0.01,1e300", "0.01,0", "0.01,1,-1", "0.01,1,nan", "0.01,1,x"):
+            for values in ("nan,1", "-0.1,1", "1e-310,1", "0.01,inf", "0.01,1e300", "0.01,0", "0.01,1,-1", "0.01,1,nan", "0.01,1,x"):
                 self.refuses(*command, "--link", "a=" + values, names=["--link a=" + values, "expected a number from"])
             self.refuses(*command, "--link", "a=0.2,0.1", names=["--link a=0.2,0.1", "R must be larger than r"])
             self.refuses(*command, "--link", "a=0.1,1", "--link", "a=0.2,1", names=["--link a=0.2,1", "already"])
