@@ -1,7 +1,5 @@
 // Measures where continuity helps an optimiser: the figures of docs/optimise.md.
 //   optimise_bench --runs 20 -o docs/measured
-#include <malloc.h>
-
 #include <algorithm>
 #include <cstdio>
 #include <limits>
@@ -9,6 +7,7 @@
 #include <vector>
 
 #include "tools/bench/measurement.h"
+#include "tools/bench/optimise/memory.h"
 #include "tools/bench/optimise/solver.h"
 #include "tools/program.h"
 
@@ -153,13 +152,6 @@ void measure(const std::vector<Task>& list, const Method& method, Measurement& m
     }
   for (std::size_t w = 0; w < all.size(); ++w)
     add(list[0].name, method, all[w], results[w], best, measurement);
-}
-
-/// MUMPS allocates memory for every factorisation and frees it afterwards. By default, glibc returns it to
-/// the system each time, which makes up a third of the time of small programs.
-void keepFreedMemory() {
-  mallopt(M_MMAP_THRESHOLD, 32 << 20);
-  mallopt(M_TRIM_THRESHOLD, 1 << 30);
 }
 
 }  // namespace

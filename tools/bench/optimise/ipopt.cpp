@@ -14,22 +14,22 @@ constexpr double kNone = 1e20;  // IPOPT's infinity
 
 class Program : public Ipopt::TNLP {
  public:
-  Program(Nlp& nlp, const VectorXd& start, bool curvature, Solution& solution)
+  Program(SmoothProgram& nlp, const VectorXd& start, bool curvature, Solution& solution)
       : nlp_(nlp), start_(start), curvature_(curvature), solution_(solution) {}
 
   bool get_nlp_info(int& n, int& m, int& jacobian, int& hessian, IndexStyleEnum& style) override {
-    n = nlp_.variables();
-    m = nlp_.rows();
+    n = static_cast<int>(nlp_.lower().size());
+    m = static_cast<int>(nlp_.most().size());
     jacobian = static_cast<int>(nlp_.jacobianPlaces().size());
     hessian = static_cast<int>(nlp_.hessianPlaces().size());
     style = C_STYLE;
     return true;
   }
   bool get_bounds_info(int n, double* low, double* high, int m, double* least, double* most) override {
-    Map<VectorXd>(low, n) = nlp_.task().lower;
-    Map<VectorXd>(high, n) = nlp_.task().upper;
+    Map<VectorXd>(low, n) = nlp_.lower().cwiseMax(-kNone);
+    Map<VectorXd>(high, n) = nlp_.upper().cwiseMin(kNone);
     std::fill(least, least + m, 0.0);
-    std::fill(most, most + m, kNone);
+    Map<VectorXd>(most, m) = nlp_.most().cwiseMin(kNone);
     return true;
   }
   bool get_starting_point(int n, bool, double* x, bool, double*, double*, int, bool, double*) override {
@@ -37,11 +37,11 @@ class Program : public Ipopt::TNLP {
     return true;
   }
   bool eval_f(int n, const double* x, bool, double& cost) override {
-    cost = nlp_.task().cost(ConstMap(x, n));
+    cost = nlp_.cost(ConstMap(x, n));
     return true;
   }
   bool eval_grad_f(int n, const double* x, bool, double* gradient) override {
-    Map<VectorXd>(gradient, n) = nlp_.task().Q * ConstMap(x, n) + nlp_.task().c;
+    Map<VectorXd>(gradient, n) = nlp_.costGradient(ConstMap(x, n));
     return true;
   }
   bool eval_g(int n, const double* x, bool, int m, double* rows) override {
@@ -73,14 +73,14 @@ class Program : public Ipopt::TNLP {
   }
 
  private:
-  static void structure(const std::vector<Nlp::Place>& places, int* row, int* column) {
-    for (const Nlp::Place& p : places) {
+  static void structure(const std::vector<SmoothProgram::Place>& places, int* row, int* column) {
+    for (const SmoothProgram::Place& p : places) {
       *row++ = p.row;
       *column++ = p.column;
     }
   }
 
-  Nlp& nlp_;
+  SmoothProgram& nlp_;
   const VectorXd& start_;
   bool curvature_;
   Solution& solution_;
@@ -89,7 +89,7 @@ class Program : public Ipopt::TNLP {
 
 }  // namespace
 
-Solution solveByIpopt(Nlp& nlp, const VectorXd& start, Solver solver, bool warm) {
+Solution solveByIpopt(SmoothProgram& nlp, const VectorXd& start, Solver solver, bool warm) {
   Solution solution;
   solution.x = start;
   Ipopt::SmartPtr<Ipopt::IpoptApplication> ipopt = new Ipopt::IpoptApplication();

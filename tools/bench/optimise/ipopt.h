@@ -5,6 +5,6 @@
 
 namespace fcl_stpbv::benchmark {
 
-Solution solveByIpopt(Nlp& nlp, const Eigen::VectorXd& start, Solver solver, bool warm);
+Solution solveByIpopt(SmoothProgram& program, const Eigen::VectorXd& start, Solver solver, bool warm);
 
 }  // namespace fcl_stpbv::benchmark

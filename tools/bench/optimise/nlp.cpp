@@ -10,7 +10,7 @@ using Eigen::VectorXd;
 Nlp::Nlp(const Task& task, const Method& method) : task_(task), method_(method) {
   for (int knot = 0; knot < task.knots; ++knot) constraints_.push_back(constraintsOf(task.scene, method));
   const CollisionConstraints& one = *constraints_[0];
-  lower_ = one.makeHessian();
+  ofDistances_ = one.makeHessian();
   for (int j = 0; j < variables(); ++j)
     for (int i = j; i < variables(); ++i)
       if (task_.Q(i, j) != 0) costPlaces_.push_back({i, j});
@@ -23,8 +23,8 @@ Nlp::Nlp(const Task& task, const Method& method) : task_(task), method_(method) 
         jacobianPlaces_.push_back(
             {knot * one.rows() + row, first + one.columnIndices()[static_cast<std::size_t>(k)]});
     }
-    for (int column = 0; column < lower_.outerSize(); ++column)
-      for (CollisionConstraints::SparseHessian::InnerIterator it(lower_, column); it; ++it)
+    for (int column = 0; column < ofDistances_.outerSize(); ++column)
+      for (CollisionConstraints::SparseHessian::InnerIterator it(ofDistances_, column); it; ++it)
         hessianPlaces_.push_back({first + static_cast<int>(it.row()), first + column});
   }
   if (task.clearance)
@@ -69,11 +69,12 @@ void Nlp::hessian(const VectorXd& x, double scale, const VectorXd& weights, bool
     const Eigen::Index k = static_cast<Eigen::Index>(knot);
     const VectorXd q = x.segment(k * c.columns(), c.columns()), w = weights.segment(k * c.rows(), c.rows());
     if (method_.model == Model::hull)
-      ofHulls(knot, q, w, lower_);
+      ofHulls(knot, q, w, ofDistances_);
     else
-      c.hessian(q, w, lower_);
-    entries.segment(to, lower_.nonZeros()) = Eigen::Map<const VectorXd>(lower_.valuePtr(), lower_.nonZeros());
-    to += lower_.nonZeros();
+      c.hessian(q, w, ofDistances_);
+    entries.segment(to, ofDistances_.nonZeros()) =
+        Eigen::Map<const VectorXd>(ofDistances_.valuePtr(), ofDistances_.nonZeros());
+    to += ofDistances_.nonZeros();
   }
 }
 

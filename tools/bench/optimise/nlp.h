@@ -5,36 +5,30 @@
 #include <memory>
 #include <vector>
 
+#include "fcl_stpbv/numbers.h"
+#include "tools/bench/optimise/program.h"
 #include "tools/bench/optimise/task.h"
 
 namespace fcl_stpbv::benchmark {
 
 /// min cost(x), rows(x) >= 0, lower <= x <= upper.
-class Nlp {
+class Nlp : public SmoothProgram {
  public:
   Nlp(const Task& task, const Method& method);
 
   const Task& task() const { return task_; }
   int variables() const { return static_cast<int>(task_.c.size()); }
   int rows() const { return task_.knots * constraints_[0]->rows(); }
-  /// Row and column of each entry of the rows' Jacobian, or of the lower triangle of a Lagrangian's Hessian.
-  /// In the latter a place may occur twice; then the entries are added.
-  struct Place {
-    int row, column;
-  };
-  const std::vector<Place>& jacobianPlaces() const { return jacobianPlaces_; }
-  const std::vector<Place>& hessianPlaces() const { return hessianPlaces_; }
-
-  /// The rows at x, and the entries of their Jacobian; kept until the next x.
-  const Eigen::VectorXd& values(const Eigen::VectorXd& x);
-  const Eigen::VectorXd& jacobian(const Eigen::VectorXd& x);
-  /// The Hessian of scale * cost + weights . rows. Without `curvature` the rows count as flat (Gauss-Newton).
-  void hessian(const Eigen::VectorXd& x, double scale, const Eigen::VectorXd& weights, bool curvature,
-               Eigen::VectorXd& entries);
-  double violation(const Eigen::VectorXd& x) { return std::max(0.0, -values(x).minCoeff()); }
-
-  long points = 0;    ///< number of different x for which rows were computed
-  long hessians = 0;  ///< number of second derivatives computed
+  const Vector& lower() const override { return task_.lower; }
+  const Vector& upper() const override { return task_.upper; }
+  Vector most() const override { return Vector::Constant(rows(), detail::kInfinity); }
+  double cost(const Vector& x) override { return task_.cost(x); }
+  Vector costGradient(const Vector& x) override { return task_.Q * x + task_.c; }
+  const Vector& values(const Vector& x) override;
+  const Vector& jacobian(const Vector& x) override;
+  void hessian(const Vector& x, double scale, const Vector& weights, bool curvature,
+               Vector& entries) override;
+  double violation(const Vector& x) { return std::max(0.0, -values(x).minCoeff()); }
 
  private:
   void evaluate(const Eigen::VectorXd& x);
@@ -44,8 +38,8 @@ class Nlp {
   Task task_;
   Method method_;
   std::vector<std::unique_ptr<CollisionConstraints>> constraints_;  // one for each knot
-  std::vector<Place> jacobianPlaces_, hessianPlaces_, costPlaces_;
-  CollisionConstraints::SparseHessian lower_;
+  std::vector<Place> costPlaces_;
+  CollisionConstraints::SparseHessian ofDistances_;
   Eigen::VectorXd x_, values_, entries_;
 };
 
