@@ -6,12 +6,12 @@
 #include <utility>
 
 #include "fcl_stpbv/error.h"
+#include "fcl_stpbv/mesh/passing_error.h"
 #include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/parts/convex_parts.h"
 #include "fcl_stpbv/robot/keyed_mesh.h"
 #include "fcl_stpbv/robot/link_geometry.h"
 #include "fcl_stpbv/robot/link_volume.h"
-#include "fcl_stpbv/robot/passing_error.h"
 #include "fcl_stpbv/robot/volume_cache.h"
 #include "fcl_stpbv/robot/worker_pool.h"
 
@@ -35,7 +35,7 @@ Body partOf(const Body& whole, int index, int number, const ConvexPart& part, in
   body.openPieces = openPieces;
   body.hull = part.points;
   if (whole.volume) {
-    body.volume = StpBv::build(part.points, {whole.volume->radii().r, whole.volume->radii().R});
+    body.volume = StpBv::build(part.points, whole.radii);  // not those of a volume with fewer vertices
     body.cover = overCover(*body.volume, part.points);
     body.geometry = std::make_shared<StpBvGeometry>(body.volume);
     body.centre = body.volume->centre();

@@ -3,14 +3,14 @@
 #include <filesystem>
 
 #include "fcl_stpbv/error.h"
+#include "fcl_stpbv/mesh/mesh_file.h"
 #include "fcl_stpbv/parts/parts_text.h"
 #include "fcl_stpbv/robot/link_geometry.h"
-#include "fcl_stpbv/robot/mesh_file.h"
 #include "fcl_stpbv/robot/volume_cache.h"
+#include "test/mesh/mesh_reads.h"
 #include "test/reference/robots.h"
 #include "test/reference/solids.h"
 #include "test/reference/volume_files.h"
-#include "test/robot/mesh_reads.h"
 #include "test/robot/urdf_texts.h"
 
 using namespace fcl_stpbv;
@@ -101,6 +101,25 @@ TEST_CASE("links of one mesh share its parts, without a cache too") {
   CHECK(right[0].hull == left[0].hull);
   CHECK(right[0].link == 1);
   CHECK(right[0].partOf == 1);
+}
+
+TEST_CASE(
+    "parts have the radii asked for, though the volume of the whole mesh has fewer vertices and a larger r") {
+  const TemporaryFolder folder;
+  saveMesh(folder / "bowl.obj", bowl(0.1, 4));
+  GeometryOptions options;
+  options.radii = {0.002, 10};
+  options.overCoverBudget = 0.02;
+  const std::string mesh = "<mesh filename=\"" + (folder / "bowl.obj") + "\"/>";
+  LinkParts parts(std::make_shared<const RobotGeometry>(parsed(robot(link("bowl", mesh)), options).geometry),
+                  "");
+  const std::vector<Body>& all = parts.of(0, 3);
+  REQUIRE(all.size() > 1);
+  for (const Body& part : all) {
+    CHECK(part.volume->radii().r == 0.002);
+    CHECK(part.volume->radii().R == 10);
+    CHECK(part.cover.max <= options.overCoverBudget);
+  }
 }
 
 TEST_CASE("an entry of other parts, a cut one and one that others may write are made anew") {
