@@ -12,7 +12,7 @@
 #include "fcl_stpbv/formatted.h"
 #include "fcl_stpbv/io/volume_files.h"
 #include "fcl_stpbv/robot/fitted_radii.h"
-#include "fcl_stpbv/robot/mesh_file.h"
+#include "fcl_stpbv/mesh/mesh_file.h"
 #include "fcl_stpbv/volume/measure.h"
 #include "fcl_stpbv/volume/radii_advice.h"
 #include "fcl_stpbv/volume/stp_bv.h"

@@ -10,9 +10,9 @@
 
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/io/atomic_write.h"
-#include "fcl_stpbv/robot/file_ending.h"
-#include "fcl_stpbv/robot/mesh_file.h"
-#include "fcl_stpbv/robot/uri_text.h"
+#include "fcl_stpbv/mesh/file_ending.h"
+#include "fcl_stpbv/mesh/mesh_file.h"
+#include "fcl_stpbv/mesh/uri_text.h"
 
 namespace fcl_stpbv::tools {
 namespace {

@@ -11,7 +11,7 @@
 #include "fcl_stpbv/formatted.h"
 #include "fcl_stpbv/io/atomic_write.h"
 #include "fcl_stpbv/io/volume_files.h"
-#include "fcl_stpbv/robot/mesh_write.h"
+#include "fcl_stpbv/mesh/mesh_write.h"
 #include "fcl_stpbv/text_cells.h"
 #include "fcl_stpbv/volume/measure.h"
 #include "fcl_stpbv/volume/tessellate.h"

@@ -10,9 +10,9 @@
 
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/io/text_scanner.h"
+#include "fcl_stpbv/mesh/json_text.h"
 #include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/robot/joint_names.h"
-#include "fcl_stpbv/robot/json_text.h"
 #include "fcl_stpbv/robot/near_name.h"
 
 namespace fcl_stpbv::report {

@@ -4,10 +4,10 @@
 #include <filesystem>
 #include <optional>
 
+#include "fcl_stpbv/mesh/uri_text.h"
+#include "fcl_stpbv/mesh/xml_text.h"
 #include "fcl_stpbv/robot/package_path.h"
 #include "fcl_stpbv/robot/urdf_element.h"
-#include "fcl_stpbv/robot/uri_text.h"
-#include "fcl_stpbv/robot/xml_text.h"
 
 namespace fcl_stpbv::report {
 namespace {

@@ -6,7 +6,7 @@
 #include <filesystem>
 
 #include "fcl_stpbv/error.h"
-#include "fcl_stpbv/robot/mesh_file.h"
+#include "fcl_stpbv/mesh/mesh_file.h"
 #include "fcl_stpbv/volume/measure.h"
 
 namespace fcl_stpbv::report {

@@ -12,10 +12,10 @@
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/formatted.h"
 #include "fcl_stpbv/io/text_scanner.h"
+#include "fcl_stpbv/mesh/passing_error.h"
 #include "fcl_stpbv/report/digest.h"
 #include "fcl_stpbv/report/kept_folder.h"
 #include "fcl_stpbv/report/part_files.h"
-#include "fcl_stpbv/robot/passing_error.h"
 
 namespace fcl_stpbv::report {
 namespace {

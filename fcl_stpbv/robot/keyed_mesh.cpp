@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "fcl_stpbv/io/text_scanner.h"
-#include "fcl_stpbv/robot/file_ending.h"
-#include "fcl_stpbv/robot/passing_error.h"
+#include "fcl_stpbv/mesh/file_ending.h"
+#include "fcl_stpbv/mesh/passing_error.h"
 #include "fcl_stpbv/robot/volume_cache.h"
 
 namespace fcl_stpbv::detail {

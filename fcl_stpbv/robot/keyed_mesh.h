@@ -5,16 +5,10 @@
 #include <optional>
 #include <string>
 
+#include "fcl_stpbv/mesh/mesh_content.h"
 #include "fcl_stpbv/robot/link_geometry.h"
-#include "fcl_stpbv/volume/tessellate.h"
 
 namespace fcl_stpbv::detail {
-
-/// The content of a mesh's file. @throws Error naming the file if there is none or the scale is wrong.
-std::string meshText(const std::string& path, const Eigen::Vector3d& scale);
-
-/// The mesh in the content of a file, as loadMesh() reads it. @throws Error naming the file.
-TriangleMesh meshOf(const std::string& text, const std::string& path, const Eigen::Vector3d& scale);
 
 /// A mesh file as it was at one moment. Its file is read once, so the key, the text and the mesh belong
 /// together even if somebody saves the file meanwhile.

@@ -17,11 +17,11 @@
 #include "fcl_stpbv/adapter/fcl_shapes.h"
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/formatted.h"
+#include "fcl_stpbv/mesh/passing_error.h"
 #include "fcl_stpbv/number_check.h"
 #include "fcl_stpbv/robot/geometry_steps.h"
 #include "fcl_stpbv/robot/link_volume.h"
 #include "fcl_stpbv/robot/near_name.h"
-#include "fcl_stpbv/robot/passing_error.h"
 #include "fcl_stpbv/robot/volume_cache.h"
 #include "fcl_stpbv/robot/worker_pool.h"
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "fcl_stpbv/robot/mesh_lines.h"
+#include "fcl_stpbv/mesh/mesh_lines.h"
 
 namespace fcl_stpbv::detail {
 

@@ -11,8 +11,8 @@
 
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/io/text_scanner.h"
-#include "fcl_stpbv/robot/uri_text.h"
-#include "fcl_stpbv/robot/xml_text.h"
+#include "fcl_stpbv/mesh/uri_text.h"
+#include "fcl_stpbv/mesh/xml_text.h"
 
 namespace fcl_stpbv::detail {
 namespace {

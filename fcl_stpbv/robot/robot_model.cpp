@@ -8,6 +8,7 @@
 
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/error_place.h"
+#include "fcl_stpbv/mesh/xml_text.h"
 #include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/robot/followed_range.h"
 #include "fcl_stpbv/robot/mimic_chain.h"
@@ -15,7 +16,6 @@
 #include "fcl_stpbv/robot/urdf_element.h"
 #include "fcl_stpbv/robot/urdf_shape.h"
 #include "fcl_stpbv/robot/urdf_words.h"
-#include "fcl_stpbv/robot/xml_text.h"
 
 namespace fcl_stpbv {
 

@@ -4,9 +4,9 @@
 #include <algorithm>
 
 #include "fcl_stpbv/error.h"
+#include "fcl_stpbv/mesh/passing_error.h"
 #include "fcl_stpbv/robot/keyed_mesh.h"
 #include "fcl_stpbv/robot/package_path.h"
-#include "fcl_stpbv/robot/passing_error.h"
 
 namespace fcl_stpbv::detail {
 namespace {

@@ -11,11 +11,11 @@
 #include <unordered_set>
 
 #include "fcl_stpbv/error.h"
+#include "fcl_stpbv/mesh/mesh_lines.h"
+#include "fcl_stpbv/mesh/xml_text.h"
 #include "fcl_stpbv/numbers.h"
-#include "fcl_stpbv/robot/mesh_lines.h"
 #include "fcl_stpbv/robot/near_name.h"
 #include "fcl_stpbv/robot/srdf_reason.h"
-#include "fcl_stpbv/robot/xml_text.h"
 #include "fcl_stpbv/words.h"
 
 namespace fcl_stpbv {

@@ -6,10 +6,10 @@
 #include <utility>
 #include <vector>
 
-#include "fcl_stpbv/robot/mesh_lines.h"
+#include "fcl_stpbv/mesh/mesh_lines.h"
+#include "fcl_stpbv/mesh/xml_text.h"
 #include "fcl_stpbv/robot/srdf.h"
 #include "fcl_stpbv/robot/srdf_reason.h"
-#include "fcl_stpbv/robot/xml_text.h"
 
 namespace fcl_stpbv {
 namespace {

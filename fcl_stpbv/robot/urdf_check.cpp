@@ -1,8 +1,8 @@
 // The tree of links and joints by name: one root, one parent each, no loop; returned in tree order.
 #include "fcl_stpbv/robot/urdf_check.h"
 
+#include "fcl_stpbv/mesh/xml_text.h"
 #include "fcl_stpbv/robot/near_name.h"
-#include "fcl_stpbv/robot/xml_text.h"
 
 namespace fcl_stpbv::detail {
 namespace {

@@ -11,8 +11,8 @@
 #include <string>
 
 #include "fcl_stpbv/error.h"
+#include "fcl_stpbv/mesh/xml_text.h"
 #include "fcl_stpbv/robot/followed_range.h"
-#include "fcl_stpbv/robot/xml_text.h"
 
 namespace fcl_stpbv::detail {
 namespace {

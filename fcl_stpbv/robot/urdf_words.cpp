@@ -7,8 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include "fcl_stpbv/mesh/xml_text.h"
 #include "fcl_stpbv/robot/near_name.h"
-#include "fcl_stpbv/robot/xml_text.h"
 #include "fcl_stpbv/words.h"
 
 namespace fcl_stpbv::detail {

@@ -1,5 +1,5 @@
 // Uses the robot component from an installed tree: reads a mesh.
-#include <fcl_stpbv/robot/mesh_file.h>
+#include <fcl_stpbv/mesh/mesh_file.h>
 #include <fcl_stpbv/volume/stp_bv.h>
 
 #include <cstdio>

@@ -6,7 +6,7 @@
 #include <cstdio>
 
 #include "fcl_stpbv/adapter/collide.h"
-#include "fcl_stpbv/adapter/hull_geometry.h"
+#include "fcl_stpbv/adapter/fcl_shapes.h"
 #include "fcl_stpbv/distance/distance.h"
 #include "test/reference/arguments.h"
 #include "test/reference/counted.h"

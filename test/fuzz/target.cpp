@@ -11,7 +11,7 @@
 #include "fcl_stpbv/distance/distance.h"
 #include "fcl_stpbv/formatted.h"
 #include "fcl_stpbv/io/volume_files.h"
-#include "fcl_stpbv/robot/mesh_file.h"
+#include "fcl_stpbv/mesh/mesh_file.h"
 #include "fcl_stpbv/robot/robot_model.h"
 #include "fcl_stpbv/robot/srdf.h"
 #include "test/fuzz/clouds.h"

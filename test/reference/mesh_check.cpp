@@ -14,7 +14,7 @@
 #include <algorithm>
 #include <set>
 
-#include "fcl_stpbv/robot/mesh_file.h"
+#include "fcl_stpbv/mesh/mesh_file.h"
 #include "fcl_stpbv/robot/package_path.h"
 
 namespace fcl_stpbv::test {

@@ -9,7 +9,7 @@
 
 #include "fcl_stpbv/adapter/fcl_distance.h"
 #include "fcl_stpbv/adapter/polyhedral_witness.h"
-#include "fcl_stpbv/robot/mesh_file.h"
+#include "fcl_stpbv/mesh/mesh_file.h"
 #include "test/reference/arguments.h"
 #include "test/reference/reference.h"
 #include "test/reference/source_folder.h"

@@ -5,11 +5,11 @@
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/io/volume_files.h"
 #include "fcl_stpbv/robot/constraints.h"
-#include "fcl_stpbv/robot/mesh_file.h"
+#include "fcl_stpbv/mesh/mesh_file.h"
 #include "fcl_stpbv/volume/measure.h"
 #include "test/reference/robots.h"
 #include "test/reference/volume_files.h"
-#include "test/robot/mesh_reads.h"
+#include "test/mesh/mesh_reads.h"
 #include "test/robot/urdf_texts.h"
 
 using namespace fcl_stpbv;

@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 #include <filesystem>
 
-#include "fcl_stpbv/robot/mesh_file.h"
+#include "fcl_stpbv/mesh/mesh_file.h"
 #include "fcl_stpbv/volume/measure.h"
 #include "test/reference/reference.h"
 #include "test/reference/robots.h"

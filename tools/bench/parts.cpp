@@ -17,7 +17,7 @@
 #include "fcl_stpbv/parts/convex_parts.h"
 #include "fcl_stpbv/report/tick_time.h"
 #include "fcl_stpbv/robot/checked_pairs.h"
-#include "fcl_stpbv/robot/mesh_file.h"
+#include "fcl_stpbv/mesh/mesh_file.h"
 #include "tools/bench/measurement.h"
 #include "tools/bench/parts/hacd.h"
 #include "tools/program.h"

@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <functional>
 
-#include "fcl_stpbv/adapter/hull_geometry.h"
+#include "fcl_stpbv/adapter/fcl_shapes.h"
 #include "fcl_stpbv/posture/approach.h"
 #include "fcl_stpbv/posture/starts.h"
 #include "test/reference/source_folder.h"
