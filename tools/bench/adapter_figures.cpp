@@ -109,7 +109,6 @@ Json figures(const char* name, const Cloud& cloud, int queries, bool large) {
     distance(g, motion.a[i], g, motion.b[i], {nullptr, &counts});
   Json result = shares(name, large ? "large" : "small", counts);
   fcl::DistanceRequestd request;
-  request.distance_tolerance = 1e-10;
   WitnessStart start;
   PairCache cache;
   QueryContext fromWitness;

@@ -41,7 +41,6 @@ Json figures(const Named& body, const Named& shape, int queries, double nearest,
   const fcl::CollisionGeometryd &a = *body.second, &b = *shape.second;
   const bool isDistance = asked == "distance";
   fcl::DistanceRequestd points(true);
-  points.distance_tolerance = 1e-10;
   const fcl::CollisionRequestd contact(1, asked == "contact");
   PairCache cache;
   const auto fcls = [&](std::size_t i) {
