@@ -115,7 +115,7 @@ class Question {
   }
 
   void search(const PairListOptions& options) {
-    text_ += "search 3 " + std::to_string(options.seed) + " ";
+    text_ += "search 4 " + std::to_string(options.seed) + " ";
     add(options.samples, options.descents, options.randomDescents, static_cast<double>(options.proofBoxes));
     add(options.margin, options.alwaysFraction);
     for (const double value : options.neutral) add(value);

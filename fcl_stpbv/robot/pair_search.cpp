@@ -14,18 +14,19 @@
 namespace fcl_stpbv::detail {
 namespace {
 
-// The pairs of bodies with the obstacle of the pair, if it has one, as the only one.
-std::vector<CheckedPair> ownPairs(const RobotGeometry& geometry, const LinkPair& pair) {
-  std::vector<CheckedPair> pairs = bodiesOf(geometry, pair);
-  for (CheckedPair& bodies : pairs)
-    if (bodies.obstacle) bodies.other = 0;
-  return pairs;
+// The constraints of a pair have at most its own obstacle, so that a scene of many costs no more.
+ConstraintOptions optionsOf(const LinkPair& pair, const std::vector<Obstacle>& obstacles) {
+  ConstraintOptions options;
+  if (pair.obstacle) options.obstacles = {obstacles.at(at(pair.link2))};
+  return options;
 }
 
-ConstraintOptions ownOptions(const LinkPair& pair, const std::vector<Obstacle>& obstacles) {
-  ConstraintOptions options;
-  if (pair.obstacle) options.obstacles = {obstacles[at(pair.link2)]};
-  return options;
+// Which bodies the pair has depends on the obstacle's index in the scene; among its constraints it is 0.
+std::vector<CheckedPair> ownBodiesOf(const RobotGeometry& geometry, const LinkPair& pair) {
+  std::vector<CheckedPair> bodies = bodiesOf(geometry, pair);
+  if (pair.obstacle)
+    for (CheckedPair& both : bodies) both.other = 0;
+  return bodies;
 }
 
 }  // namespace
@@ -35,19 +36,18 @@ PairSearch::PairSearch(std::shared_ptr<const Kinematics> kinematics,
                        const std::vector<Obstacle>& obstacles)
     : kinematics_(std::move(kinematics)),
       geometry_(std::move(geometry)),
-      constraints_(kinematics_, geometry_, ownPairs(*geometry_, pair), ownOptions(pair, obstacles)),
+      constraints_(kinematics_, geometry_, ownBodiesOf(*geometry_, pair), optionsOf(pair, obstacles)),
       d_(constraints_.rows()),
       values_(constraints_.nonZeros()),
       gradient_(kinematics_->size()) {
-  const std::vector<Obstacle> own = ownOptions(pair, obstacles).obstacles;
-  const SearchRoom room = searchRoom(*kinematics_, *geometry_, own);
+  const SearchRoom room = searchRoom(*kinematics_, *geometry_, optionsOf(pair, obstacles).obstacles);
   unit_ = room.unit;
   scale_ = room.scale;
   const std::vector<int>& rows = constraints_.rowStart();  // all rows have the same columns
   coordinates_.assign(constraints_.columnIndices().begin(), constraints_.columnIndices().begin() + rows[1]);
   const double reach = reachOf(*geometry_, pair.link1);
   if (pair.obstacle)
-    boundSlopes(pair.link1, reach, 0, own[0].centre().norm() + own[0].radius());
+    boundSlopes(pair.link1, reach, 0, reachOf(obstacles[at(pair.link2)]));
   else
     boundSlopes(pair.link1, reach, pair.link2, reachOf(*geometry_, pair.link2));
 }

@@ -13,7 +13,7 @@ namespace fcl_stpbv::detail {
 /// One pair as a function of the coordinates between them.
 class PairSearch {
  public:
-  /// `obstacles`: those that a pair may name.
+  /// `obstacles` are those of the scene, which a pair with an obstacle refers to.
   PairSearch(std::shared_ptr<const Kinematics> kinematics, std::shared_ptr<const RobotGeometry> geometry,
              const LinkPair& pair, const std::vector<Obstacle>& obstacles = {});
 

@@ -64,8 +64,7 @@ double roomOf(const Kinematics& kinematics, const RobotGeometry& geometry,
     const auto [first, last] = geometry.of(static_cast<int>(l));
     if (first < last) reach = std::max(reach, way[l] + reachOf(geometry, static_cast<int>(l)));
   }
-  for (const Obstacle& obstacle : obstacles)
-    reach = std::max(reach, obstacle.centre().norm() + obstacle.radius());
+  for (const Obstacle& obstacle : obstacles) reach = std::max(reach, reachOf(obstacle));
   return std::max(scale, 2 * reach);
 }
 
@@ -86,6 +85,8 @@ double reachOf(const RobotGeometry& geometry, int link) {
     reach = std::max(reach, geometry.bodies[at(i)].centre.norm() + geometry.bodies[at(i)].radius);
   return reach;
 }
+
+double reachOf(const Obstacle& obstacle) { return obstacle.centre().norm() + obstacle.radius(); }
 
 double lengthOf(const RobotModel& robot, int joint) {
   const JointModel& model = robot.joints[at(joint)];

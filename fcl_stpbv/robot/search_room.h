@@ -14,6 +14,9 @@ namespace fcl_stpbv::detail {
 /// Largest distance of a link's bodies from the link's origin (m).
 double reachOf(const RobotGeometry& geometry, int link);
 
+/// The same of an obstacle from the world's origin.
+double reachOf(const Obstacle& obstacle);
+
 /// The longest way from the parent's origin to the child's, within the limits (m). For a planar or floating
 /// joint, which has no limits, the way at zero.
 double lengthOf(const RobotModel& robot, int joint);

@@ -282,6 +282,7 @@ TEST_CASE("no slope of the distance exceeds its Lipschitz bound") {
   const auto ball = std::make_shared<StpBvGeometry>(StpBv::build(geodesicSphere(0.1, 2)));
   fcl::CollisionObjectd object(ball);
   object.setTranslation(Eigen::Vector3d(0.5, 0.7, 0.9));
+  const std::vector<Obstacle> obstacles{obstacleOf(object, "ball")};
   for (const TestRobot& robot : robots()) {
     const Arm arm = armFrom(load(robot));
     Random random(2);
@@ -291,8 +292,7 @@ TEST_CASE("no slope of the distance exceeds its Lipschitz bound") {
       const int j = arm.geometry->bodies[static_cast<std::size_t>(random.below(count))].link;
       if (i == j) continue;
       const bool obstacle = trial % 4 == 0 && moves(arm.kinematics->robot(), i);
-      PairSearch search(arm.kinematics, arm.geometry, {i, obstacle ? 0 : j, obstacle},
-                        {obstacleOf(object, "ball")});
+      PairSearch search(arm.kinematics, arm.geometry, {i, obstacle ? 0 : j, obstacle}, obstacles);
       Eigen::VectorXd q(arm.kinematics->size());
       for (int k = 0; k < q.size(); ++k)
         q[k] = random.uniform(arm.kinematics->lower()[k], arm.kinematics->upper()[k]);
