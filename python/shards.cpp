@@ -129,10 +129,9 @@ class PythonPairSearch {
     requireCount(starts, 0, "starts");
     PairSearch search(scene_.kinematics, scene_.geometry, links, scene_.obstacles);
     std::mt19937_64 random = numbered(seed, pair);
-    const SearchRoom room = searchRoom(*scene_.kinematics, *scene_.geometry, scene_.obstacles);
     Interrupt interrupt;
     for (int i = 0; i < starts; ++i, interrupt()) {
-      Eigen::VectorXd q = randomConfiguration(*scene_.kinematics, room, random);
+      Eigen::VectorXd q = randomConfiguration(*scene_.kinematics, search.room(), random);
       search.forget();
       if (search.descend(q, scene_.margin) <= scene_.margin) return q;
     }

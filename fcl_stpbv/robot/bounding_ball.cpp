@@ -1,4 +1,6 @@
-// Balls around volumes and primitives in closed form, around the corners of a polyhedron, else FCL's own.
+// Balls around volumes and primitives in closed form, around the corners of a polyhedron, else FCL's own. For
+// a mesh or an octree whose box FCL has not computed yet (computeLocalAABB()), it is the ball around the box
+// at the root of its tree.
 #include "fcl_stpbv/robot/bounding_ball.h"
 
 #include <fcl/geometry/shape/convex.h>
@@ -7,8 +9,10 @@
 #include <cmath>
 #include <vector>
 
+#include "fcl_stpbv/adapter/element_tree.h"
 #include "fcl_stpbv/adapter/posed_geometry.h"
 #include "fcl_stpbv/numbers.h"
+#include "fcl_stpbv/robot/link_geometry.h"
 
 namespace fcl_stpbv::detail {
 namespace {
@@ -27,8 +31,12 @@ BoundingBall ballAround(const std::vector<Vector3d>& corners) {
 BoundingBall ballOf(const fcl::CollisionGeometryd& geometry) {
   ConvexBody body;
   if (!isConvex(geometry, body)) {
-    const bool boxed = (geometry.aabb_local.min_.array() <= geometry.aabb_local.max_.array()).all();
-    return {geometry.aabb_center, boxed ? geometry.aabb_radius : kInfinity};
+    if ((geometry.aabb_local.min_.array() <= geometry.aabb_local.max_.array()).all())
+      return {geometry.aabb_center, geometry.aabb_radius};
+    const ElementTree tree(geometry);
+    if (!tree.any() || !tree.finite()) return {Vector3d::Zero(), kInfinity};
+    const OrientedBox box = tree.root().box;
+    return {box.centre, box.half.norm()};
   }
   if (body.volume) return {body.volume->centre(), body.volume->enclosingRadius()};
   if (body.unbounded()) return {Vector3d::Zero(), kInfinity};
@@ -43,6 +51,12 @@ BoundingBall boundingBall(const fcl::CollisionGeometryd& geometry) {
   const BoundingBall ball = ballOf(geometry);
   if (ball.centre.allFinite() && std::isfinite(ball.radius)) return ball;
   return {Vector3d::Zero(), kInfinity};
+}
+
+BoundingBall boundingBall(const Body& body) {
+  if (std::isfinite(body.radius)) return {body.centre, body.radius};
+  const BoundingBall ball = boundingBall(*body.geometry);
+  return {body.pose * ball.centre, ball.radius};
 }
 
 }  // namespace fcl_stpbv::detail

@@ -13,6 +13,7 @@
 
 #include "fcl_stpbv/adapter/fcl_distance.h"
 #include "fcl_stpbv/numbers.h"
+#include "fcl_stpbv/robot/bounding_ball.h"
 #include "fcl_stpbv/robot/joint_path.h"
 
 namespace fcl_stpbv::detail {
@@ -57,8 +58,10 @@ void MotionChains::addBodies(const RobotGeometry& geometry, const std::vector<Ob
     placed.where = centre;
     bodies_.push_back(placed);
   };
-  for (const Body& body : geometry.bodies)
-    add(body.link, *body.geometry, body.pose, body.centre, body.radius);
+  for (const Body& body : geometry.bodies) {
+    const BoundingBall ball = boundingBall(body);
+    add(body.link, *body.geometry, body.pose, ball.centre, ball.radius);
+  }
   for (const Obstacle& obstacle : obstacles)
     add(-1, *obstacle.geometry(), obstacle.pose(), obstacle.centre(), obstacle.radius());
 }

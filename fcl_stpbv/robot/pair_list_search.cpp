@@ -41,7 +41,6 @@ class Search {
     requireNumber("PairListOptions: margin", options.margin, -kLargest, kLargest);
     requireNumber("PairListOptions: proofSeconds", options.proofSeconds, 0, kLargest);
     requireNumber("PairListOptions: alwaysFraction", options.alwaysFraction, 0, 1);
-    room_ = searchRoom(*kinematics_, *geometry_, options.obstacles);
     neutral_ = options.neutral.size() > 0 ? options.neutral : kinematics_->neutral();
     if (neutral_.size() != kinematics_->size() || !neutral_.allFinite())
       throw Error("PairListOptions: neutral must be a finite number for each of the " +
@@ -197,7 +196,7 @@ class Search {
     std::mt19937_64 random(options_.seed +
                            0x9e3779b97f4a7c15u * (1 + static_cast<std::size_t>(&entry - list_.data())));
     for (int i = 0; i < descents; ++i)
-      if (descend(randomConfiguration(*kinematics_, room_, random))) return std::nullopt;
+      if (descend(randomConfiguration(*kinematics_, search.room(), random))) return std::nullopt;
     if (entry.reason == PairReason::neverProven) return std::nullopt;
     return open;
   }
@@ -264,7 +263,6 @@ class Search {
   std::shared_ptr<const Kinematics> kinematics_;
   std::shared_ptr<const RobotGeometry> geometry_;
   const PairListOptions& options_;
-  SearchRoom room_;
   Eigen::VectorXd neutral_;
   std::vector<PairEntry> list_;
   std::vector<char> isFresh_;   // for each entry, whether it is searched

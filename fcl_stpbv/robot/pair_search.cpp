@@ -9,7 +9,6 @@
 #include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/robot/joint_freedoms.h"
 #include "fcl_stpbv/robot/joint_path.h"
-#include "fcl_stpbv/robot/search_room.h"
 
 namespace fcl_stpbv::detail {
 namespace {
@@ -39,10 +38,8 @@ PairSearch::PairSearch(std::shared_ptr<const Kinematics> kinematics,
       constraints_(kinematics_, geometry_, ownBodiesOf(*geometry_, pair), optionsOf(pair, obstacles)),
       d_(constraints_.rows()),
       values_(constraints_.nonZeros()),
-      gradient_(kinematics_->size()) {
-  const SearchRoom room = searchRoom(*kinematics_, *geometry_, optionsOf(pair, obstacles).obstacles);
-  unit_ = room.unit;
-  scale_ = room.scale;
+      gradient_(kinematics_->size()),
+      room_(searchRoom(*kinematics_, *geometry_, optionsOf(pair, obstacles).obstacles)) {
   const std::vector<int>& rows = constraints_.rowStart();  // all rows have the same columns
   coordinates_.assign(constraints_.columnIndices().begin(), constraints_.columnIndices().begin() + rows[1]);
   const double reach = reachOf(*geometry_, pair.link1);
@@ -115,18 +112,18 @@ double PairSearch::distanceAndGradient(const Eigen::VectorXd& q) {
 template <class Arrived>
 double PairSearch::follow(Eigen::VectorXd& q, double sign, Arrived arrived) {
   constexpr int kSteps = 200;
-  const double enough = 1e-6 * scale_;  // m; the search has arrived when a step gains less
+  const double enough = 1e-6 * room_.scale;  // m; the search has arrived when a step gains less
   double step = 0.1, d = distanceAndGradient(q);
   for (int i = 0; i < kSteps && !arrived(d); ++i) {
-    const Eigen::VectorXd slope = sign * gradient_.cwiseProduct(unit_);
-    if (!(slope.norm() > 1e-12 * scale_)) break;
+    const Eigen::VectorXd slope = sign * gradient_.cwiseProduct(room_.unit);
+    if (!(slope.norm() > 1e-12 * room_.scale)) break;
     bool better = false;
     for (int half = 0; half < 30 && !better; ++half) {
-      const Eigen::VectorXd next = (q + step / slope.norm() * slope.cwiseProduct(unit_))
+      const Eigen::VectorXd next = (q + step / slope.norm() * slope.cwiseProduct(room_.unit))
                                        .cwiseMax(kinematics_->lower())
                                        .cwiseMin(kinematics_->upper());
       const double there = distanceAndGradient(next);
-      const double promised = slope.dot((next - q).cwiseQuotient(unit_));
+      const double promised = slope.dot((next - q).cwiseQuotient(room_.unit));
       if (promised <= 0) return d;  // the limits stop every coordinate
       const double gain = sign * (there - d);
       if (gain > 1e-4 * promised) {

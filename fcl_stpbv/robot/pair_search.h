@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "fcl_stpbv/robot/constraints.h"
+#include "fcl_stpbv/robot/search_room.h"
 
 namespace fcl_stpbv::detail {
 
@@ -32,6 +33,9 @@ class PairSearch {
   const std::vector<double>& lipschitz() const { return lipschitz_; }
   const std::vector<int>& coordinates() const { return coordinates_; }
 
+  /// The room of the robot and the pair's own obstacle: other obstacles do not make it larger.
+  const SearchRoom& room() const { return room_; }
+
   /// The constraints, with the answers of the last distance().
   const CollisionConstraints& constraints() const { return constraints_; }
   /// Makes the next distance independent of earlier ones, to the last bit.
@@ -49,8 +53,7 @@ class PairSearch {
   std::vector<int> coordinates_;
   std::vector<double> lipschitz_;
   Eigen::VectorXd d_, values_, gradient_;
-  Eigen::VectorXd unit_;  // the units of steps (SearchRoom)
-  double scale_ = 1;
+  SearchRoom room_;
 };
 
 }  // namespace fcl_stpbv::detail

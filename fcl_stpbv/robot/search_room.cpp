@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fcl_stpbv/adapter/fcl_shapes.h"
 #include "fcl_stpbv/numbers.h"
+#include "fcl_stpbv/robot/bounding_ball.h"
 
 namespace fcl_stpbv::detail {
 namespace {
@@ -45,6 +47,22 @@ std::vector<Moved> movedBy(const Kinematics& kinematics) {
   return all;
 }
 
+double finiteOrZero(double length) { return std::isfinite(length) ? length : 0; }
+
+double reachOfBody(const Body& body) {
+  const BoundingBall ball = boundingBall(body);
+  return ball.centre.norm() + ball.radius;
+}
+
+// How far from the world's origin a body has to reach to meet any part of the obstacle, or of a half space or
+// a plane its nearest part.
+double meetingReachOf(const Obstacle& obstacle) {
+  Shape shape;
+  if (!shapeOf(*obstacle.geometry(), shape) || !shape.unbounded()) return finiteOrZero(reachOf(obstacle));
+  const Eigen::Isometry3d& pose = obstacle.pose();
+  return finiteOrZero(std::abs(shape.offset + (pose.linear() * shape.normal).dot(pose.translation())));
+}
+
 // With coordinates without limits at zero, each of two bodies is at most the largest reach from the root's
 // origin. So the bodies are at most two reaches apart.
 double roomOf(const Kinematics& kinematics, const RobotGeometry& geometry,
@@ -62,16 +80,19 @@ double roomOf(const Kinematics& kinematics, const RobotGeometry& geometry,
       way[l] = way[at(joint.parent)] + joint.origin.translation().norm() + slideOf(joint, most[at(j)]);
     }
     const auto [first, last] = geometry.of(static_cast<int>(l));
-    if (first < last) reach = std::max(reach, way[l] + reachOf(geometry, static_cast<int>(l)));
+    for (int i = first; i < last; ++i)
+      reach = std::max(reach, finiteOrZero(way[l] + reachOfBody(geometry.bodies[at(i)])));
   }
-  for (const Obstacle& obstacle : obstacles) reach = std::max(reach, reachOf(obstacle));
-  return std::max(scale, 2 * reach);
+  for (const Obstacle& obstacle : obstacles) reach = std::max(reach, meetingReachOf(obstacle));
+  constexpr double kFarthest = 1e150;  // m: no distance is measured beyond
+  return std::max(scale, std::min(2 * reach, kFarthest));
 }
 
 double scaleOf(const RobotGeometry& geometry) {
   constexpr double kSmall = 0.1, kLarge = 1;  // m: usual radii of the largest body
   double largest = 0;
-  for (const Body& body : geometry.bodies) largest = std::max(largest, body.radius);
+  for (const Body& body : geometry.bodies)
+    largest = std::max(largest, finiteOrZero(boundingBall(body).radius));
   if (largest > kLarge) return largest / kLarge;
   return largest > 0 ? std::min(1.0, largest / kSmall) : 1;
 }
@@ -81,8 +102,7 @@ double scaleOf(const RobotGeometry& geometry) {
 double reachOf(const RobotGeometry& geometry, int link) {
   double reach = 0;
   const auto [first, last] = geometry.of(link);
-  for (int i = first; i < last; ++i)
-    reach = std::max(reach, geometry.bodies[at(i)].centre.norm() + geometry.bodies[at(i)].radius);
+  for (int i = first; i < last; ++i) reach = std::max(reach, reachOfBody(geometry.bodies[at(i)]));
   return reach;
 }
 

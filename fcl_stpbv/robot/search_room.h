@@ -11,7 +11,7 @@
 
 namespace fcl_stpbv::detail {
 
-/// Largest distance of a link's bodies from the link's origin (m).
+/// Largest distance of a link's bodies from the link's origin (m); infinite if a body has no end.
 double reachOf(const RobotGeometry& geometry, int link);
 
 /// The same of an obstacle from the world's origin.
@@ -25,7 +25,9 @@ double lengthOf(const RobotModel& robot, int joint);
 struct SearchRoom {
   /// Within the limits. Coordinates that translate without limits (of planar and floating joints and of a
   /// moving base) end at twice as far as the robot and the obstacles reach, at least 1 m, less for tiny
-  /// bodies. If two bodies can meet at all, they meet within it, without changes of the other joints. Joints
+  /// bodies. If two bodies can meet at all, they meet within it, without changes of the other joints. A half
+  /// space or a plane counts as far as its nearest point, so a base that can only move nearly along it may
+  /// meet it farther away. A body or an obstacle of which no size is known does not count. Joints
   /// that slide more than a hundred times as far, such as between limits of 1e16 m, end there, too.
   Eigen::VectorXd lower, upper;
   /// Unit of a step: 1 rad for a joint that turns. For a joint that slides it is `scale` (m), or more if the
