@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 
+#include "fcl_stpbv/adapter/fcl_shapes.h"
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/robot/joint_path.h"
@@ -67,8 +68,42 @@ BoxBound::BoxBound(const ProofScene& scene, const LinkPair& pair)
     joints_.push_back(box);
     models_.push_back(&joint);
   }
+  addHops(pair.link1);
+  if (!pair.obstacle) addHops(pair.link2);
+  addBalls();
   lipschitz_ = Eigen::Map<const Eigen::VectorXd>(search_.lipschitz().data(),
                                                  static_cast<Index>(search_.lipschitz().size()));
+}
+
+void BoxBound::addHops(int link) {
+  const RobotModel& robot = scene_.kinematics->robot();
+  const std::vector<int>& coordinates = search_.coordinates();
+  for (int j = robot.links[at(link)].parentJoint; j >= 0;
+       j = robot.links[at(robot.joints[at(j)].parent)].parentJoint) {
+    Hop hop{&robot.joints[at(j)]};
+    if (hop.joint->type == JointType::prismatic) {
+      const JointModel& owner = hop.joint->mimic ? robot.joints[at(hop.joint->mimic->joint)] : *hop.joint;
+      hop.coordinate = scene_.kinematics->coordinate(owner.name);
+      const auto own = std::find(coordinates.begin(), coordinates.end(), hop.coordinate);
+      if (own != coordinates.end()) hop.slot = static_cast<int>(own - coordinates.begin());
+    }
+    hops_.push_back(hop);
+  }
+}
+
+// A half space or a plane has no ball, and needs none: only its own numbers are rounded.
+void BoxBound::addBalls() {
+  for (const CheckedPair& pair : search_.constraints().pairs())
+    for (const int b : {pair.body, pair.obstacle ? pair.body : pair.other}) {
+      const Body& body = scene_.geometry->bodies[at(b)];
+      balls_.emplace_back(body.link, boundingBall(body));
+    }
+  if (!pair_.obstacle) return;
+  const Obstacle& obstacle = scene_.obstacles[at(pair_.link2)];
+  Shape shape;
+  obstacleReach_ = shapeOf(*obstacle.geometry(), shape) && shape.unbounded()
+                       ? obstacle.pose().translation().norm() + std::abs(shape.offset)
+                       : reachOf(obstacle);
 }
 
 BoxBound::Verdict BoxBound::look(const JointBox& box) {
@@ -90,6 +125,8 @@ void BoxBound::ask(const JointBox& box) {
   half_ = (box.upper - middle).cwiseMax(middle - box.lower) * (1 + 4 * kEps);
   for (Index k = 0; k < middle.size(); ++k)
     q_[search_.coordinates()[static_cast<std::size_t>(k)]] = middle[k];
+  cuts_ = (box.lower.array() < middle.array() && middle.array() < box.upper.array()).cast<double>();
+  chooseCut(half_);
   search_.forget();
   distance_ = search_.distance(q_);
   place();
@@ -102,7 +139,7 @@ void BoxBound::ask(const JointBox& box) {
 
 // Lower bound on the distance all over the box: the cheap one, and where that is not above
 // `enough` that of planes. Ends with the first pair of bodies that no bound takes above
-// `enough`; widest_ is the coordinate to cut then.
+// `enough`; cut() is the coordinate to cut then.
 double BoxBound::bound(double enough) {
   const CollisionConstraints& rows = search_.constraints();
   const Eigen::VectorXd share = lipschitz_.cwiseProduct(half_);
@@ -116,45 +153,64 @@ double BoxBound::bound(double enough) {
       found = std::max(found, planeBound(rows.pairs()[at(row)], answer, enough + slack_) - slack_);
     lowest = std::min(lowest, found);
     if (found > enough || enough == kInfinity) continue;
-    if (share_.size() > 0) share_.maxCoeff(&widest_);
+    chooseCut(share_);
     break;
   }
   return lowest;
 }
 
-// Axes, origins and ranges of the joints in the middle of the box, and what rounding may have made of a
-// bound: each of some `steps` products and sums behind a coordinate, from the root along the links and
-// through the bound's own sums, is off by a few units in the last place of the longest length. The angle of
-// a joint that mimics another one is rounded itself, and its joint may turn by up to 1e6 rad.
+void BoxBound::chooseCut(const Eigen::VectorXd& share) {
+  cut_ = -1;
+  if (share.size() > 0 && !(share.cwiseProduct(cuts_).maxCoeff(&cut_) > 0)) cut_ = -1;
+}
+
+// Axes, origins and ranges of the joints in the middle of the box, and slack_: what rounding may have made of
+// a bound. Let u be half the unit in the last place of 1, and L the longest way (longestWay()), so that no
+// two points are farther apart than 2 L.
+// 1. A pose is its parent's times the joint's. The joint's rotation is a sum of three matrices with the
+//    factors 1, cos and sin: each entry is off by at most 8 u. Each entry of the product is off by 3 u more.
+//    So a rotation is off by at most 33 u, which moves what lies beyond by at most 66 u L. A position is a
+//    sum of four terms of at most L together: off by 7 u L. That is less than 40 * 2 u L a joint.
+// 2. The angle of a joint that mimics another one is a product and a sum. So it is off by at most 2 u times
+//    the sizes of both, which moves what lies beyond by at most 4 u L for each of their radians. The joint
+//    may turn by up to 1e6 rad. (The way of a joint that slides is off by 2 u L at most, as L contains it.)
+// 3. The bound's own sums have some m^3 terms for m joints between the two, each off by a few u L.
 void BoxBound::place() {
-  double length = 0, angles = 0;
+  double angles = 0;
   const Kinematics::State& state = search_.constraints().state();
   for (std::size_t i = 0; i < joints_.size(); ++i) {
     const Eigen::Isometry3d& child = state.link[at(models_[i]->child)];
     joints_[i].axis = child.linear() * models_[i]->axis;
     joints_[i].origin = child.translation();
     joints_[i].half = half_[joints_[i].slot] * std::abs(joints_[i].rate) * (1 + kEps);
-    length = std::max(length, joints_[i].origin.norm() + (joints_[i].slides ? joints_[i].half : 0));
     if (!models_[i]->mimic || joints_[i].slides) continue;
     const double middle = q_[search_.coordinates()[at(joints_[i].slot)]];
     angles += std::abs(joints_[i].rate * middle) + joints_[i].half + std::abs(models_[i]->mimic->offset);
   }
-  const auto reach = [&](const Vector3d& centre, double radius) {
-    length = std::max(length, centre.norm() + radius);
-  };
-  for (const CheckedPair& pair : search_.constraints().pairs()) {
-    for (const int b : {pair.body, pair.obstacle ? pair.body : pair.other}) {
-      const Body& body = scene_.geometry->bodies[at(b)];
-      reach(state.link[at(body.link)] * body.centre, body.radius);
+  const double m = static_cast<double>(joints_.size()),
+               all = static_cast<double>(scene_.kinematics->robot().joints.size());
+  slack_ = kEps * (40 * all + 16 * (m * m * m + 16) + 4 * angles) * longestWay();
+}
+
+// The largest size of the terms that make up a coordinate on the way from the root to the bodies (m): far
+// links may lie before near ones, and a joint that slides may come back from far away, by its origin or by
+// the offset of a mimic.
+double BoxBound::longestWay() const {
+  const Kinematics::State& state = search_.constraints().state();
+  double longest = obstacleReach_;
+  for (const Hop& hop : hops_) {
+    double way =
+        state.link[at(hop.joint->parent)].translation().norm() + hop.joint->origin.translation().norm();
+    if (hop.coordinate >= 0) {
+      const Mimic rule = hop.joint->mimic.value_or(Mimic{0, 1, 0});
+      const double most = std::abs(q_[hop.coordinate]) + (hop.slot < 0 ? 0 : half_[hop.slot]);
+      way += std::abs(rule.multiplier) * most + std::abs(rule.offset);
     }
-    if (!pair_.obstacle) continue;
-    const Obstacle& obstacle = scene_.obstacles[at(pair_.link2)];
-    reach(obstacle.centre(), obstacle.radius());
+    longest = std::max(longest, way);
   }
-  const double m = static_cast<double>(joints_.size());
-  const double steps =
-      static_cast<double>(scene_.kinematics->robot().joints.size()) + m * m * m + 16 + angles;
-  slack_ = 16 * kEps * steps * length;
+  for (const auto& [link, ball] : balls_)
+    longest = std::max(longest, (state.link[at(link)] * ball.centre).norm() + ball.radius);
+  return longest;
 }
 
 double BoxBound::planeBound(const CheckedPair& pair, const DistanceAnswer& answer, double enough) {

@@ -4,9 +4,11 @@
 
 #include <Eigen/Core>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "fcl_stpbv/robot/body_points.h"
+#include "fcl_stpbv/robot/bounding_ball.h"
 #include "fcl_stpbv/robot/pair_proof.h"
 #include "fcl_stpbv/robot/pair_search.h"
 #include "fcl_stpbv/robot/plane_bound.h"
@@ -42,8 +44,9 @@ class BoxBound {
   Verdict look(const JointBox& box);
   /// The middle of the last box: all coordinates.
   const Eigen::VectorXd& middle() const { return q_; }
-  /// Where to cut the last box: the coordinate that takes most from the gap.
-  int widest() const { return widest_; }
+  /// Where to cut the last box: the coordinate that takes most from the gap. -1 if none takes anything, or if
+  /// no number lies between the ends of those that do.
+  int cut() const { return cut_; }
 
   /// Lower bound on the distance all over the box (m).
   double lowerBound(const JointBox& box);
@@ -51,8 +54,18 @@ class BoxBound {
  private:
   void ask(const JointBox& box);
   double bound(double enough);
+  void chooseCut(const Eigen::VectorXd& share);
   void place();
+  double longestWay() const;
   double planeBound(const CheckedPair& pair, const DistanceAnswer& answer, double enough);
+
+  struct Hop {  // a joint on the way from the root to one of the two links
+    const JointModel* joint;
+    int coordinate = -1;  // into q, of a joint that slides; -1 for others
+    int slot = -1;        // the same among the pair's coordinates, if it is one of them
+  };
+  void addHops(int link);
+  void addBalls();
 
   const ProofScene& scene_;
   LinkPair pair_;
@@ -61,11 +74,15 @@ class BoxBound {
   Eigen::VectorXd half_, share_, taken_;  // of the box: half widths, what each coordinate takes from the gap
   std::vector<BoxJoint> joints_;
   std::vector<const JointModel*> models_;
+  std::vector<Hop> hops_;
+  std::vector<std::pair<int, BoundingBall>> balls_;  // around the bodies, each with its link
+  double obstacleReach_ = 0;                         // bound on the obstacle's coordinates (m)
   PlaneBound bound_;
   BodyPoints first_, second_;
   double distance_ = 0, slack_ = 0;
   bool leversHold_ = true;  // whether lipschitz_ holds: only within the limits of joints that slide
-  int widest_ = 0;
+  Eigen::VectorXd cuts_;    // of the box: 1 for each coordinate that can be cut, else 0
+  int cut_ = -1;
 };
 
 }  // namespace fcl_stpbv::detail

@@ -75,28 +75,29 @@ PairProof provePair(const ProofScene& scene, const LinkPair& pair, std::vector<J
   BoxBound bound(scene, pair);
   for (const JointBox& box : proof.open) requireSize(box, bound.coordinates());
   if (!bound.hasBound() || !std::all_of(proof.open.begin(), proof.open.end(), bounded)) return proof;
+  std::vector<JointBox> stuck;  // unclear boxes that cannot be cut
   while (!proof.open.empty() && proof.boxes < maxBoxes) {
     JointBox box = std::move(proof.open.back());
     proof.open.pop_back();
     ++proof.boxes;
     const BoxBound::Verdict verdict = bound.look(box);
     if (verdict == BoxBound::Verdict::clear) continue;
-    if (box.lower.size() == 0 &&
-        verdict == BoxBound::Verdict::unclear) {  // nothing to cut: the pair is rigid
-      proof.open.push_back(std::move(box));
-      break;
-    }
     if (verdict == BoxBound::Verdict::collision) {
       proof.collision = bound.middle();
       proof.open.clear();
-      break;
+      return proof;
+    }
+    const int k = bound.cut();
+    if (k < 0) {
+      stuck.push_back(std::move(box));
+      continue;
     }
     JointBox other = box;
-    const int k = bound.widest();
     box.upper[k] = other.lower[k] = middleOf(box)[k];
     proof.open.push_back(std::move(other));
     proof.open.push_back(std::move(box));
   }
+  proof.open.insert(proof.open.begin(), stuck.begin(), stuck.end());
   return proof;
 }
 

@@ -62,7 +62,8 @@ PairProof unproven(const ProofScene& scene, const LinkPair& pair);
 /// clear is cut in two. Stops at a collision. The result for a box depends only on that box. So the same
 /// arguments always give the same result, and a proof that continues from `open` ends as if it had not been
 /// interrupted. Infinite boxes stay open; so do all boxes if a planar or floating joint or a moving base lies
-/// between the two.
+/// between the two. A box that is not clear and cannot be cut, such as one of a single configuration, stays
+/// open too, before the others.
 PairProof provePair(const ProofScene& scene, const LinkPair& pair, std::vector<JointBox> boxes,
                     long maxBoxes);
 
