@@ -79,6 +79,7 @@ JointType toType(const urdf::Joint& joint) {
 }
 
 void readLimits(const urdf::Joint& joint, JointModel& model) {
+  if (model.type == JointType::planar) return;  // it has no range, as a floating joint has none
   if (model.type == JointType::continuous) {
     model.lower = -kPi;
     model.upper = kPi;

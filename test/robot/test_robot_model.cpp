@@ -106,6 +106,16 @@ TEST_CASE("a mimic joint is tied to the end of its chain") {
   CHECK(model.joints[2].mimic->offset == -0.25);
 }
 
+TEST_CASE("a joint without a range may have any limit") {
+  for (const char* type : {"fixed", "continuous", "planar", "floating"}) {
+    CAPTURE(type);
+    const std::string text = "<joint name=\"j\" type=\"" + std::string(type) +
+                             "\"><parent link=\"a\"/><child link=\"b\"/><limit lower=\"1\" upper=\"-1\" "
+                             "effort=\"1\" velocity=\"1\"/></joint>";
+    CHECK(parse(link("a") + link("b") + text).joints.size() == 1);
+  }
+}
+
 TEST_CASE("a mimic joint that cannot follow is refused by what it is tied to") {
   const std::string links = link("a") + link("b") + link("c");
   for (const char* type : {"fixed", "planar"})
