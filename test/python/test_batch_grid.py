@@ -104,6 +104,17 @@ def test_without_neighbours_only_the_tasks_own_starts_count(grid, tmp_path):
                                  status=2)
 
 
+def test_placements_that_share_a_name_move_one_by_one_under_the_names_of_the_library():
+    places = [{"link": "tool", "target": {"position": [i, 0, 0]}} for i in range(3)] + [{"link": "tool", "name": "tip", "target": {}}]
+    task = json.dumps({"placements": places})
+    axis = {"name": "up", "from": 0, "to": 1, "count": 2}
+    grid = Placements(task, json.dumps({"axes": [{**axis, "move": {"tool#2": [0, 0, 1], "tip": [0, 2, 0]}}]}), "grid.json")
+    moved = [placement["target"]["position"] for placement in json.loads(grid.text(0, 1))["placements"]]
+    assert moved == [[0, 0, 0], [1, 0, 1], [2, 0, 0], [0, 2, 0]]
+    with pytest.raises(fcl_stpbv.Error, match='got "tool", expected a placement of the task: tip, tool#1, tool#2, tool#3'):
+        Placements(task, json.dumps({"axes": [{**axis, "move": {"tool": [0, 0, 1]}}]}), "grid.json")
+
+
 def test_wrong_grids_are_refused_in_one_line(tmp_path):
     wrong = {"{": "is no JSON", "[]": "list of axes", '{"axes": []}': "list of axes", '{"axes": [3]}': "axes[0]: got 3"}
     for change, what in [({"move": {"nose": [1, 0, 0]}}, 'axes[1].move: got "nose", expected a placement of the task: tool'), ({"move": {}}, "axes[1].move"),

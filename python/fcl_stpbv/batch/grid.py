@@ -42,6 +42,12 @@ def direction(where, value):
     return [number(f"{where}[{i}]", part) for i, part in enumerate(value)]
 
 
+def placement_names(placements):
+    """The names as the library gives them: those that several placements share are numbered."""
+    names = [placement.get("name", placement["link"]) for placement in placements]
+    return [name if names.count(name) == 1 else f"{name}#{names[:i + 1].count(name)}" for i, name in enumerate(names)]
+
+
 class Axis:
     """One axis of the grid. The targets move by `values` (m) times the directions of the placements that move."""
 
@@ -73,7 +79,7 @@ class Placements:
 
     def __init__(self, task, grid, path):
         self.task = loaded(task, "the task")
-        self.names = [placement.get("name", placement["link"]) for placement in self.task["placements"]]
+        self.names = placement_names(self.task["placements"])
         given = loaded(grid, path)
         if not isinstance(given, dict) or list(given) != ["axes"] or not isinstance(given["axes"], list) or not given["axes"]:
             raise fcl_stpbv.Error(f"{path}: expected an object with a list of axes, such as {{\"axes\": [...]}}")
