@@ -83,12 +83,13 @@ std::tuple<Eigen::VectorXd, Eigen::VectorXd, bool> PythonRobot::closestApproach(
   const Alone alone(motionsInUse_);
   std::vector<Approach> best;
   const bool proven = check.closest(q0, q1, precision, 0, best);
-  constexpr double kNone = std::numeric_limits<double>::infinity();
+  constexpr double kNone = std::numeric_limits<double>::infinity(),
+                   kLowest = std::numeric_limits<double>::lowest();
   Eigen::VectorXd d = Eigen::VectorXd::Constant(rows(), kNone), time = Eigen::VectorXd::Zero(rows());
   for (std::size_t pair = 0; pair < best.size(); ++pair) {
     const int row = rowOf(check.pairs()[pair]);
     // A distance that could not be measured gets the lowest value, not a large one, as in distances().
-    d[row] = best[pair].distance < kNone ? best[pair].distance : std::numeric_limits<double>::lowest();
+    d[row] = std::isfinite(best[pair].distance) ? best[pair].distance : kLowest;
     time[row] = best[pair].time;
   }
   return {std::move(d), std::move(time), proven};

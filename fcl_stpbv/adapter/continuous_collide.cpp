@@ -193,8 +193,14 @@ bool makeSteady(SteadyMotion& motion) {
          motion.angular.allFinite();
 }
 
-/// The answer if FCL's marks or a tree's cells call all of a geometry free.
-const MotionAnswer kMeetsNothing{MotionVerdict::free, 1, 1, {}, 1};
+/// The answer if FCL's marks or a tree's cells call all of a geometry free. Its distance is that of
+/// distance() for such a tree.
+const MotionAnswer kMeetsNothing = [] {
+  MotionAnswer free{MotionVerdict::free, 1, 1, {}, 1};
+  free.answer.status = DistanceStatus::exact;
+  free.answer.distance = free.answer.lower = std::numeric_limits<double>::max();
+  return free;
+}();
 
 double inFclTerms(const MotionAnswer& found, const SteadyMotion& motion1, const SteadyMotion& motion2,
                   ContinuousCollisionResultd& result) {

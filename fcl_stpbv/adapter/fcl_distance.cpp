@@ -11,7 +11,6 @@
 #include "fcl_stpbv/adapter/nearest_pair.h"
 #include "fcl_stpbv/adapter/polyhedral_witness.h"
 #include "fcl_stpbv/distance/distance.h"
-#include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/vectorized.h"
 
 namespace fcl_stpbv {
@@ -117,7 +116,6 @@ FCL_STPBV_VECTORIZED
 DistanceAnswer inFclTerms(const Distance& found, const Transform3d& pose1, const Transform3d& pose2) {
   DistanceAnswer answer;
   answer.status = found.status;
-  answer.distance = -kInfinity;  // without an answer: no comparison takes the pair for clear
   if (found.status == DistanceStatus::invalid) return answer;
   answer.distance = found.distance;
   answer.lower = found.lower;

@@ -52,7 +52,7 @@ struct DistanceAnswer {
   /// Signed distance (m), in [lower, upper]. Minus infinity if the status is `invalid`, so that no comparison
   /// takes the pair for clear. The largest double for an octree whose cells are all free, and in DistanceData
   /// before the first pair.
-  double distance = std::numeric_limits<double>::max();
+  double distance = -std::numeric_limits<double>::infinity();
   double lower = -std::numeric_limits<double>::infinity();  ///< certified lower bound (m)
   double upper = std::numeric_limits<double>::infinity();   ///< certified upper bound (m)
   Eigen::Vector3d normal{0, 0, 0};  ///< unit vector from geometry 1 to geometry 2; zero if it is not known
@@ -256,7 +256,7 @@ struct DistanceData {
   fcl::DistanceRequestd request = fcl::DistanceRequestd(true);
   /// The closest pair so far. Before the first pair, `distance` is the largest double. If a pair has no
   /// answer, that pair is the result: status `invalid`, distance minus infinity; `object` names the pair.
-  DistanceAnswer result;
+  DistanceAnswer result = beforeFirstPair();
   bool done = false;  ///< set it to stop the search
   /// Whether to stop at the first pair in contact, as FCL's own callback does. Otherwise the deepest pair is
   /// found.
@@ -276,9 +276,15 @@ struct DistanceData {
 
   /// Resets the result, `done`, `pairs` and `invalid`; keeps the settings, the caches and the mapping counts.
   void clear() {
-    result = {};
+    result = beforeFirstPair();
     done = false;
     pairs = invalid = 0;
+  }
+  /// The result before the first pair.
+  static DistanceAnswer beforeFirstPair() {
+    DistanceAnswer none;
+    none.distance = std::numeric_limits<double>::max();
+    return none;
   }
 };
 

@@ -107,8 +107,8 @@ bool findContact(MotionCheck& all, Followed& left, TrajectoryReport& report) {
 }
 
 // Finds which of the pairs that are left are free all the way, each by a proof of its own. The search goes on
-// without those that touch, which are found by their closest approaches or by the search itself. It also goes
-// on without a few that take too many distances.
+// without those that touch or have no distance, which are found by their closest approaches or by the search
+// itself. It also goes on without a few that take too many distances.
 void findFree(Followed left, TrajectoryReport& report) {
   for (auto i = static_cast<std::ptrdiff_t>(left.number.size()) - 1; i >= 0; --i) {
     const auto pair = static_cast<std::size_t>(left.number[static_cast<std::size_t>(i)]);

@@ -187,14 +187,14 @@ RowAnswer CollisionConstraints::answer(int row) const {
   const Row& r = rows_[at(row)];
   RowAnswer answer;
   DistanceAnswer& found = answer;
-  if (r.first) {
+  // Of a pair that was not queried, found_ and answers_ have old values and the distance of its constant row.
+  if (r.first)
     found = inFclTerms(found_[at(row)], pose_[at(r.a)], pose_[at(r.b)]);
-    found.geometry = {geometry_->bodies[at(r.a)].geometry.get(), &second(pairs_[at(row)])};
-  } else {
+  else if (answers_[at(row)].status != DistanceStatus::invalid)
     found = answers_[at(row)];
-  }
-  if (answer.status != DistanceStatus::invalid && answer.distance > 0)
-    answer.meshDistanceMost = answer.upper + r.excess;
+  found.geometry = {geometry_->bodies[at(r.a)].geometry.get(), &second(pairs_[at(row)])};
+  if (answer.status == DistanceStatus::invalid) return answer;
+  if (answer.distance > 0) answer.meshDistanceMost = answer.upper + r.excess;
   if (moving_) {
     answer.normalVelocity = moves_[at(row)].normal;
     answer.pointVelocity = moves_[at(row)].point;

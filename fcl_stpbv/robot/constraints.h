@@ -23,9 +23,10 @@ struct SmoothConstraint {
   std::string name;              ///< for messages and reports
   std::vector<int> coordinates;  ///< ascending
   /// Returns the value at q, positive for allowed configurations. Writes one derivative per entry of
-  /// `coordinates`, unless `gradient` is null. A velocity damper treats the value like a distance (m). It is
-  /// called from one thread at a time for each constraint. It must not throw. It must not allocate if
-  /// evaluate() shall not allocate.
+  /// `coordinates`, unless `gradient` is null. NaN if there is no value: the row is then that of a pair
+  /// without a distance, with the lowest double and no derivative. A velocity damper treats the value like a
+  /// distance (m). It is called from one thread at a time for each constraint. It must not throw. It must not
+  /// allocate if evaluate() shall not allocate.
   std::function<double(const Eigen::Ref<const Eigen::VectorXd>& q, double* gradient)> value;
   /// Names of the pairs of links that it replaces.
   std::vector<std::pair<std::string, std::string>> replaces;
@@ -161,10 +162,11 @@ class CollisionConstraints {
   /// @throws Error for a matrix of another size.
   bool hessian(const ConstVector& q, int row, Eigen::Ref<Eigen::MatrixXd> full);
 
-  /// The answer of a row's pair at the last evaluation. The status is `invalid` if the bounding spheres were
-  /// enough, and for the row of a smooth constraint, which has no points. Then its distance has no meaning:
-  /// use the row's d. hessian() queries only rows whose weight is not 0, so call evaluate() again before
-  /// answer().
+  /// The answer of a row's pair at the last evaluation. The status is `invalid` if the pair was not queried,
+  /// because bounding spheres or `handOver` made its row constant, and for the row of a smooth constraint,
+  /// which has no points. Then nothing else of the answer is known, as for any pair without an answer (the
+  /// distance is minus infinity): use the row's d. hessian() queries only rows whose weight is not 0, so call
+  /// evaluate() again before answer().
   RowAnswer answer(int row) const;
   /// The poses of the links at the last evaluation. Only the links of the rows' bodies and their ancestors
   /// are up to date.
@@ -221,6 +223,7 @@ class CollisionConstraints {
   bool compute(const ConstVector& q, double* d, double* values);
   bool computePairs(const ConstVector& q, double* d, double* values);
   void computeSmooth(const ConstVector& q, double* d, double* values) const;
+  double smoothValue(std::size_t row, const ConstVector& q, double* values) const;
   void nothingKnown(double* d, double* values);
   void spread(Eigen::Ref<Eigen::MatrixXd> jacobian) const;
   Witness ask(std::size_t row);

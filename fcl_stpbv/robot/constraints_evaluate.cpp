@@ -1,5 +1,6 @@
 // Distances and Jacobian of all rows at q: checks sizes, computes the links' poses, and evaluates each row.
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "fcl_stpbv/error.h"
@@ -66,10 +67,17 @@ bool CollisionConstraints::computePairs(const ConstVector& q, double* d, double*
 }
 
 void CollisionConstraints::computeSmooth(const ConstVector& q, double* d, double* values) const {
-  for (std::size_t i = 0; i < options_.smooth.size(); ++i) {
-    const std::size_t row = pairs_.size() + i;
-    d[row] = options_.smooth[i].value(q, values ? values + rowStart_[row] : nullptr);
-  }
+  for (std::size_t row = pairs_.size(); row + 1 < rowStart_.size(); ++row)
+    d[row] = smoothValue(row, q, values);
+}
+
+// NaN would pass a comparison with a margin.
+double CollisionConstraints::smoothValue(std::size_t row, const ConstVector& q, double* values) const {
+  const double value =
+      options_.smooth[row - pairs_.size()].value(q, values ? values + rowStart_[row] : nullptr);
+  if (!std::isnan(value)) return value;
+  if (values) std::fill(values + rowStart_[row], values + rowStart_[row + 1], 0.0);
+  return std::numeric_limits<double>::lowest();
 }
 
 void CollisionConstraints::spread(Eigen::Ref<Eigen::MatrixXd> jacobian) const {

@@ -2,6 +2,7 @@
 // the velocities of normal and witness points; the joints' twists change by Kinematics::differentiate
 // (docs/robot.md, Second derivatives). Rows without a closed form use central differences.
 #include <algorithm>
+#include <limits>
 
 #include "fcl_stpbv/number_check.h"
 #include "fcl_stpbv/numbers.h"
@@ -86,9 +87,11 @@ bool CollisionConstraints::evaluateValues(const ConstVector& q, const ConstVecto
   moving_ = true;
   std::fill(open_.begin(), open_.end(), 1);
   for (std::size_t row = 0; row < pairs_.size(); ++row) open_[row] = !rateRow(row, rates, values.data());
-  for (std::size_t i = 0; i < options_.smooth.size(); ++i) {
-    const std::size_t row = pairs_.size() + i;
-    rates.d[static_cast<Eigen::Index>(row)] = options_.smooth[i].value(q, values.data() + rowStart_[row]);
+  for (std::size_t row = pairs_.size(); row < open_.size(); ++row) {
+    const Eigen::Index i = static_cast<Eigen::Index>(row);
+    rates.d[i] = smoothValue(row, q, values.data());
+    rates.speed[i] = rates.drift[i] = 0;
+    open_[row] = rates.d[i] > std::numeric_limits<double>::lowest();
   }
   if (std::find(open_.begin(), open_.end(), 1) == open_.end()) return true;
   differences(q, qd);
@@ -165,7 +168,7 @@ void CollisionConstraints::differences(const ConstVector& q, const ConstVector& 
     for (std::size_t row = 0; row < open_.size(); ++row) {
       if (!open_[row]) continue;
       if (row >= pairs_.size()) {
-        options_.smooth[row - pairs_.size()].value(moved_, values.data() + rowStart_[row]);
+        smoothValue(row, moved_, values.data());
         continue;
       }
       const Witness witness = ask(row);

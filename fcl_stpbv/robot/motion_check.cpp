@@ -107,8 +107,8 @@ class MotionCheck::Impl::ApproachScene {
     cover = check_.ballCover(index, best.distance - precision_, most);
     if (cover.before >= most && cover.after >= most) return false;
     const Distance found = check_.ask(index);
-    if (found.status == DistanceStatus::invalid) return false;
     if (found.distance < best.distance) best = {found.distance, offset_ + t_};
+    if (found.status == DistanceStatus::invalid) return false;
     // If the depth is not exact, only its lower bound is proven.
     loose |= found.lower < found.distance - precision_;
     cover =
@@ -196,7 +196,10 @@ MotionBracket MotionCheck::Impl::firstContact(const ConstVector& q0, const Const
 bool MotionCheck::Impl::closest(const ConstVector& q0, const ConstVector& q1, double precision, double offset,
                                 std::vector<Approach>& best) {
   best.resize(pairs_.size());
-  if (!chains_.begin(q0, q1)) return false;
+  if (!chains_.begin(q0, q1)) {
+    std::fill(best.begin(), best.end(), Approach{-kInfinity, offset});
+    return false;
+  }
   ApproachScene scene(*this, precision, offset, best);
   MotionRequest request;
   request.tolerance = 1;

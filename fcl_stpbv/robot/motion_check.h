@@ -17,8 +17,9 @@ namespace fcl_stpbv {
 
 /// The least distance of a pair that was found on a motion.
 struct Approach {
-  double distance = std::numeric_limits<double>::infinity();  ///< found at `time` (m)
-  double time = 0;                                            ///< from 0 to 1
+  /// Found at `time` (m). Infinite if none was asked for, minus infinity if the pair had no distance there.
+  double distance = std::numeric_limits<double>::infinity();
+  double time = 0;  ///< from 0 to 1
 };
 
 /// Checks motions of one robot among obstacles. It caches each pair's normal from one check to the next. Not
@@ -61,12 +62,13 @@ class MotionCheck {
 
   /// Updates each pair's least distance in `best` with the motion from q0 to q1. Afterwards it is proven that
   /// no pair comes nearer than its `best` minus `precision` (m) on this motion. Times are those of the motion
-  /// plus `offset`. Returns false if this could not be proven.
+  /// plus `offset`. Returns false if this could not be proven. For a q that is not finite or has a wrong size
+  /// all of `best` is minus infinity.
   bool closest(const ConstVector& q0, const ConstVector& q1, double precision, double offset,
                std::vector<Approach>& best);
 
-  /// Distance of a pair at q, with witness points and normal (world, m). @throws Error for a pair that does
-  /// not exist.
+  /// Distance of a pair at q, with witness points and normal (world, m). Status `invalid` for a q that is not
+  /// finite or has a wrong size. @throws Error for a pair that does not exist.
   DistanceAnswer answer(int pair, const ConstVector& q);
 
  private:

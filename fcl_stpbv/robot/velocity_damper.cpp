@@ -209,15 +209,15 @@ void VelocityDamper::update(const Eigen::Ref<const Eigen::VectorXd>& q,
     return;
   }
   for (int row = 0; row < constraints_.rows(); ++row) {
-    // A NaN value counts as inside.
-    const bool inside = !(rates_.d[row] >= dampers_[at(row)].influence);
+    const bool inside = rates_.d[row] < dampers_[at(row)].influence;
     const bool entered = inside && !inside_[at(row)];
     if (entered) enter(row);
     if (!inside && inside_[at(row)]) rest(row);
     inside_[at(row)] = inside;
     double b = inside ? bound(row) : -kInfinity;
     if (entered) b = std::max(b, brake(row));
-    b_[row] = std::isnan(b) ? kInfinity : b;
+    const bool hasValue = rates_.d[row] > std::numeric_limits<double>::lowest();
+    b_[row] = hasValue && !std::isnan(b) ? b : kInfinity;
     if (inside) near_.push_back(row);
   }
 }

@@ -279,6 +279,13 @@ TEST_CASE("a tree whose cells are all free is met by no motion") {
     CHECK(std::abs(met - (wall ? 0.45 : 1)) <= 1e-7);
     CHECK(fcl_stpbv::continuousCollide(&ball, at(-1, 0.45, 0), at(1, 0.45, 0), &tree, at(0, 0, 0),
                                        at(0, 0, 0), requestOf(fcl::CCDM_TRANS), result) == met);
+    if (!wall) {
+      SteadyMotion still;
+      const MotionAnswer free = firstContact(tree, still, ball, still);
+      CHECK(free.verdict == MotionVerdict::free);
+      CHECK(free.answer.status == DistanceStatus::exact);
+      CHECK(free.answer.distance == std::numeric_limits<double>::max());
+    }
     // No motion is clear of an invalid body, and an invalid body's motion is not clear.
     const fcl::Sphered none(-1.0);
     for (const auto& [body, end] : {std::pair<const fcl::Sphered*, double>{&none, 1.0}, {&ball, NAN}}) {

@@ -3,6 +3,7 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <limits>
 
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/robot/batch.h"
@@ -117,6 +118,10 @@ TEST_CASE(
         if (apart >= kHandOver) {
           CHECK(d[row] == constant);
           CHECK(J.row(row).isZero(0));
+          // Not queried, so nothing of an earlier query is left.
+          CHECK(rows->answer(row).status == DistanceStatus::invalid);
+          CHECK(rows->answer(row).lower == -std::numeric_limits<double>::infinity());
+          CHECK(rows->answer(row).upper == std::numeric_limits<double>::infinity());
         }
         least = std::min(least, d[row]);
         truth = std::min(truth, own);
