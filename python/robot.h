@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -252,9 +253,12 @@ class PythonRobot {
   }
   /// Called before loading starts. @throws Error naming the argument.
   static void requireBend(double influence, const std::optional<double>& exactUpTo) {
-    if (exactUpTo && !(*exactUpTo >= 0 && *exactUpTo < influence))
-      throw Error("exact_up_to: got " + std::string(py::str(py::float_(*exactUpTo))) +
-                  ", expected a length of 0 or more and below influence (m)");
+    if (!exactUpTo) return;
+    const std::string got = "exact_up_to: got " + std::string(py::str(py::float_(*exactUpTo))) + ", ";
+    if (std::isinf(influence))
+      throw Error(got + "which needs an influence; without one a row is its distance everywhere");
+    if (!(*exactUpTo >= 0 && *exactUpTo < influence))
+      throw Error(got + "expected a length of 0 or more and below influence (m)");
   }
   /// @throws Error naming the argument.
   static const Eigen::VectorXd& checked(const Given& given, const char* name, int size) {

@@ -36,7 +36,10 @@ CollisionConstraints::CollisionConstraints(std::shared_ptr<const Kinematics> kin
   if (!(options_.influence > 0)) throw Error("CollisionConstraints: influence must be larger than 0");
   if (std::isnan(options_.exactUpTo)) throw Error("CollisionConstraints: exactUpTo is not a number");
   const bool always = options_.influence == detail::kInfinity;
-  if (options_.exactUpTo < 0 || always) options_.exactUpTo = options_.influence / 2;
+  if (options_.exactUpTo >= 0 && always)
+    throw Error(
+        "CollisionConstraints: exactUpTo needs an influence; without one a row is its distance everywhere");
+  if (options_.exactUpTo < 0) options_.exactUpTo = options_.influence / 2;
   if (!always && options_.exactUpTo >= options_.influence)
     throw Error(
         "CollisionConstraints: exactUpTo must be less than influence; rows bend over between the two");

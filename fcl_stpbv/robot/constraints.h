@@ -38,11 +38,12 @@ struct ConstraintOptions {
   /// constant value (influence + exactUpTo) / 2. Up to `exactUpTo` a row is the distance d. In between it
   /// goes over to the constant, with continuous second derivatives.
   double influence = std::numeric_limits<double>::infinity();
-  double exactUpTo = -1;  ///< must be less than the influence (m); negative: half the influence
+  /// Must be less than the influence (m), which must be finite; negative: half the influence.
+  double exactUpTo = -1;
   /// For two bodies whose convex parts are among the pairs (RobotGeometry::byParts): adds a row for the whole
   /// bodies, before the first row of their parts. If the whole bodies are farther apart than `handOver` (m),
   /// no part is queried, and the rows of the parts have the constant value 3/4 handOver, or less with
-  /// `exactUpTo`. If they are nearer than handOver / 2, the added row has that constant value and the rows of
+  /// `influence`. If they are nearer than handOver / 2, the added row has that constant value and the rows of
   /// the parts are exact. In between every row goes over smoothly, as above. Infinite: no such rows.
   double handOver = std::numeric_limits<double>::infinity();
   std::vector<Obstacle> obstacles;       ///< the obstacles that pairs refer to

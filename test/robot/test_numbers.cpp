@@ -146,6 +146,12 @@ TEST_CASE("Options that are not finite or out of range are refused by name") {
   exact.exactUpTo = exact.influence = 0.1;  // a kink
   CHECK_THROWS_WITH(CollisionConstraints(small.kinematics, small.geometry, small.pairs, exact),
                     Catch::Contains("exactUpTo must be less than influence"));
+  exact.influence = kInf;
+  for (const double handOver : {kInf, 0.2}) {
+    exact.handOver = handOver;
+    CHECK_THROWS_WITH(CollisionConstraints(small.kinematics, small.geometry, small.pairs, exact),
+                      Catch::Contains("exactUpTo needs an influence"));
+  }
   DamperOptions headroom;
   headroom.headroom = kNaN;
   CHECK_THROWS_WITH(VelocityDamper(constraints, headroom), Catch::Contains("headroom"));
