@@ -23,7 +23,8 @@ constexpr double kLeast = 1e-9, kLargest = 1e9;
 // security distance in one period. With sampled accelerations, integrated as v += p u, d += p v or exactly, a
 // pair approaches the security distance without passing it if all roots of the closed loop are real and not
 // negative. That is true for one gain with a value of up to 0.34, and for two gains whose values add up to at
-// most 1. Each of the two is raised to at most 1/3.
+// most 1. Each of the two is raised to at most 1/3. A larger one that is given is lowered where the other one
+// needs its place.
 constexpr double kMostGain = 1, kMostGainOfAccelerations = 1.0 / 3, kMostSum = 1;
 
 // With sampled accelerations, gains of 1/3 keep a pair from its security distance if its speed times the
@@ -143,8 +144,11 @@ void VelocityDamper::raise(int row, double room) {
 }
 
 // The row requires a g room >= (a + g) speed + fall. First the smaller gain is raised, up to the larger one;
-// then both. A drift that brakes is ignored. Then the row holds only if h' + a h >= 0, and from such a state
-// a pair never reaches h = 0.
+// then both. Where their sum becomes too large, it stays at its limit: the smaller gain is then the least
+// that fulfils the row with this sum, smaller (sum - smaller) room >= sum speed + fall. With the given larger
+// gain the limit leaves the smaller one too little, so it is raised, and the larger one is lowered. A drift
+// that brakes is ignored. Then the row holds only if h' + a h >= 0, and from such a state a pair never
+// reaches h = 0.
 void VelocityDamper::raiseBoth(int row, double room) {
   const Damper& damper = dampers_[at(row)];
   const double reach = damper.influence - damper.security;
@@ -158,11 +162,16 @@ void VelocityDamper::raiseBoth(int row, double room) {
   const double most = mostGain(options_.level, options_.period), sum = kMostSum / options_.period;
   const double needed = (larger * speed + fall) / (larger * room - speed);
   if (larger * room > speed && needed <= larger) {
-    smaller = std::max(smaller, std::min({most, sum - larger, needed}));
+    smaller = std::max(smaller, std::min(most, needed));
   } else {
     const double both = std::min(most, (speed + std::sqrt(speed * speed + room * fall)) / room);
     larger = std::max(larger, both);
-    smaller = std::max(smaller, std::min(both, sum - larger));
+    smaller = std::max(smaller, both);
+  }
+  if (smaller + larger > sum) {
+    const double apart = std::sqrt(std::max(0.0, sum * sum - 4 * (sum * speed + fall) / room));
+    smaller = std::min(most, (sum - apart) / 2);
+    larger = sum - smaller;
   }
   damping_[at(row)] = a * reach;
 }

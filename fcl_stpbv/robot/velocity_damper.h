@@ -31,7 +31,8 @@ struct DamperOptions {
   Damper all;                                 ///< parameters of all rows that are not in `rows`
   std::map<int, Damper> rows;                 ///< parameters of single rows, by index
   /// Used for a pair that comes within `influence` faster than its row allows. It gets a larger xi until it
-  /// leaves the influence; at level `barrier` also a larger g, if xi is not enough. The larger gain allows
+  /// leaves the influence; at level `barrier` also a larger g, if xi is not enough. (There the smaller of the
+  /// two gains is raised; the larger one is lowered if `period` limits their sum.) The larger gain allows
   /// the present speed plus the excess over the allowed speed, but at most `headroom` more than the present
   /// speed (m/s). So a row does not act in the period in which its pair enters. Exceptions: a pair that
   /// enters at `security` or nearer, or so fast that it would be there within a few periods, is braked at
@@ -74,10 +75,10 @@ class VelocityDamper {
   /// @throws Error unless `A` has columns() columns and both have at least near().size() rows.
   int dense(Eigen::Ref<Eigen::MatrixXd> A, Eigen::Ref<Eigen::VectorXd> b) const;
 
-  /// The current xi of a row (m/s): that of its Damper, smaller if the period limits it, or the raised one
+  /// The current xi of a row (m/s): that of its Damper, smaller if the period limits it, or the changed one
   /// while its pair is within the influence. @throws Error for a row that does not exist.
   double damping(int row) const;
-  /// The current g of a row (1/s): that of the options, smaller if the period limits it, or the raised one
+  /// The current g of a row (1/s): that of the options, smaller if the period limits it, or the changed one
   /// while its pair is within the influence. @throws Error for a row that does not exist.
   double barrierGain(int row) const;
 

@@ -125,6 +125,40 @@ TEST_CASE("no row acts on the tick on which it enters where its pair is some per
         }
 }
 
+TEST_CASE(
+    "whatever gains are given, a barrier does not act as its pair enters, and its state is inside its set") {
+  const Rail rail;
+  for (const double large : {0.01, 0.2, 1.0 / 3, 0.4, 0.5, 0.6, 0.66, 0.7, 0.78, 0.8, 0.9, 0.97, 0.99, 1.0})
+    for (const double small : {1e-4, 0.0125, 0.1, 0.3})
+      for (const bool mirrored : {false, true})
+        for (const double room : {0.0399, 1e-3})
+          for (const double periods : {6.001, 8.0, 20.0, 40.0, 67.0, 1000.0})
+            for (const double headroom : {0.0, 0.05}) {
+              DamperOptions options = at(DamperLevel::barrier);
+              options.headroom = headroom;
+              options.all.damping = (mirrored ? large : small) / kTick * kReach;
+              options.barrierGain = (mirrored ? small : large) / kTick;
+              VelocityDamper damper(*rail.constraints, options);
+              double left = room, speed = room / (periods * kTick), least = room;
+              rail.update(damper, left, speed);
+              const double a = damper.damping(0) / kReach, g = damper.barrierGain(0);
+              CAPTURE(large, small, mirrored, room, periods, headroom, a * kTick, g * kTick, damper.b()[0]);
+              // The rounding of the sums and of the room, which is the distance less d_s.
+              CHECK(damper.b()[0] <= 1e-12 * (a + g) * speed + 1e-15 * a * g);
+              CHECK(a * room >= speed);
+              CHECK((a + g) * kTick <= 1 + 1e-12);
+              const bool exact = mirrored;
+              for (int tick = 0; tick < 100; ++tick) {
+                const double next = speed + kTick * allowed(damper, 1e4);
+                left -= kTick * (exact ? (speed + next) / 2 : next);
+                speed = next;
+                least = std::min(least, left);
+                rail.update(damper, left, speed);
+              }
+              CHECK(least >= -1e-12);  // rounding
+            }
+}
+
 TEST_CASE("a pair that enters at any speed that leaves it time does not pass its security distance") {
   const Rail rail;
   for (const DamperLevel level : {DamperLevel::velocity, DamperLevel::acceleration, DamperLevel::barrier})
