@@ -14,6 +14,7 @@
 #include "fcl_stpbv/packed.h"
 #include "fcl_stpbv/robot/collision_checker.h"
 #include "fcl_stpbv/robot/kept_plane.h"
+#include "fcl_stpbv/robot/pose_rounding.h"
 #include "fcl_stpbv/robot/sphere_pairs.h"
 
 namespace fcl_stpbv {
@@ -89,9 +90,9 @@ class CollisionChecker::Impl {
   std::shared_ptr<const RobotGeometry> geometry_;
   std::vector<CheckedPair> pairs_;
   std::vector<Obstacle> obstacles_;
-  // The margin, the largest of all radii, and a bound on the poses' rounding (m).
-  double margin_ = 0, largest_ = 0, slack_ = 0;
-  Kinematics::State state_;  // with the world's frame as one more link
+  detail::PoseRounding rounding_;
+  double margin_ = 0, slack_ = 0;  // the margin, and a bound on the rounding of both bodies' poses (m)
+  Kinematics::State state_;        // with the world's frame as one more link
   std::vector<detail::PlacedBody> bodies_;
   std::vector<std::size_t> placed_;            // indices of the bodies that occur in pairs
   Kinematics::Subtree placing_;                // the links of these bodies

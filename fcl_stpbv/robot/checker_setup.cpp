@@ -37,6 +37,13 @@ CollisionChecker::Impl::Impl(std::shared_ptr<const Kinematics> kinematics,
   for (const int body : paired.bodies) placed_.push_back(at(body));
   for (const int obstacle : paired.obstacles) placed_.push_back(geometry_->bodies.size() + at(obstacle));
   placing_ = kinematics_->subtree(paired.links);
+  std::vector<BodyReach> reaches;
+  for (const std::size_t i : placed_) {
+    const PlacedBody& body = bodies_[i];
+    const int link = body.frame == world ? -1 : static_cast<int>(body.frame);
+    reaches.push_back(reachOf(link, body.inFrame, body.centre, body.radius));
+  }
+  rounding_ = PoseRounding(*kinematics_, reaches);
   centres_.resize(bodies_.size());
   near_.resize(pairs_.size());
   hits_.reserve(pairs_.size());
@@ -63,8 +70,6 @@ void CollisionChecker::Impl::addBody(std::size_t frame, const fcl::CollisionGeom
   if (!placed.centre.allFinite() || !std::isfinite(placed.radius)) {  // a half space, or an invalid pose
     placed.centre = pose.translation();
     placed.radius = kInfinity;
-  } else {
-    largest_ = std::max(largest_, placed.radius);
   }
   bodies_.push_back(placed);
 }

@@ -28,23 +28,18 @@ bool CollisionChecker::Impl::place(const ConstVector& q) {
   if (q.size() != kinematics_->size() || !q.allFinite()) return false;
   kinematics_->forwardPoses(q, state_, placing_);
   placeSpheres();
+  slack_ = 2 * rounding_.most(q);
   constexpr double kMost = 1e-3;  // m; for links so far away that rounding moves them more, nothing is known
   return slack_ < kMost;
 }
 
 FCL_STPBV_VECTORIZED
 void CollisionChecker::Impl::placeSpheres() {
-  Packed most{};
   for (const std::size_t i : placed_) {
     const PlacedBody& body = bodies_[i];
     const Isometry3d& frame = state_.link[body.frame];
-    const Packed c = turned(frame, pack3(body.centre)) + column(frame, 3);
-    centres_[i].at = c;
-    most = larger(most, larger(c, -c));
+    centres_[i].at = turned(frame, pack3(body.centre)) + column(frame, 3);
   }
-  // For the products of a chain of links and the poses of both bodies, each rounded by a few units in the
-  // last place.
-  slack_ = 2 * kGapRounding * (largest(most) + largest_);
 }
 
 std::optional<Hit> CollisionChecker::Impl::firstHit(const ConstVector& q) {

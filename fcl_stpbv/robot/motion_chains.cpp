@@ -47,6 +47,13 @@ MotionChains::MotionChains(const Kinematics& kinematics, const RobotGeometry& ge
     requireBodies(pair, geometry, obstacles.size(), "MotionCheck");
     addPair(pair, static_cast<int>(geometry.bodies.size()));
   }
+  std::vector<BodyReach> reaches;
+  for (const Pair& pair : pairs_)
+    for (const Side& side : pair.side) {
+      const Placed& placed = body(side);
+      reaches.push_back(reachOf(placed.link, placed.local, placed.centre, placed.radius));
+    }
+  rounding_ = PoseRounding(kinematics_, reaches);
 }
 
 void MotionChains::addBodies(const RobotGeometry& geometry, const std::vector<Obstacle>& obstacles) {
@@ -105,6 +112,7 @@ bool MotionChains::begin(const ConstVector& q0, const ConstVector& q1) {
   if (!set(q0, q1)) return false;
   const RobotModel& robot = kinematics_.robot();
   reach_ = 0;
+  double slid = 0, turned = 0;  // sums of |q0| + |q1| over what slides (m) and what turns (rad)
   for (std::size_t j = 0; j < hop_.size(); ++j) {
     const bool base = j == robot.joints.size();
     Hop& hop = hop_[j] = {};
@@ -117,16 +125,23 @@ bool MotionChains::begin(const ConstVector& q0, const ConstVector& q1) {
     const auto farthest = [&](Index count) {
       return std::max(q0.segment(k, count).norm(), q1.segment(k, count).norm());
     };
+    const auto both = [&](Index from, Index count) {
+      return q0.segment(from, count).norm() + q1.segment(from, count).norm();
+    };
     if (freedoms == 1) {
       const bool slides = robot.joints[j].type == JointType::prismatic;
       (slides ? hop.slide : hop.spin) = std::abs(motion.multiplier * way_[k]);
+      (slides ? slid : turned) += std::abs(motion.multiplier) * both(k, 1);
       const std::optional<Mimic>& mimic = robot.joints[j].mimic;
       if (slides)
         hop.length += std::abs(motion.multiplier) * farthest(1) + (mimic ? std::abs(mimic->offset) : 0);
     } else {
       const Index across = freedoms == 3 ? 2 : 3;
       hop.slide = way_.segment(k, across).norm();
-      hop.spin = way_.segment(k + across, static_cast<Index>(freedoms) - across).norm();
+      const Index round = static_cast<Index>(freedoms) - across;
+      hop.spin = way_.segment(k + across, round).norm();
+      slid += both(k, across);
+      turned += both(k + across, round);
       // A rotation vector that moves evenly turns the body unevenly: |dw/dt|
       // <= |dr/dt|^2 / 2 (docs/motion.md).
       if (freedoms == 6) hop.turns = 1.5;
@@ -136,7 +151,21 @@ bool MotionChains::begin(const ConstVector& q0, const ConstVector& q1) {
   }
   for (Pair& pair : pairs_)
     for (Side& side : pair.side) prepare(side);
+  // q at a time is q0 + t (q1 - q0), with three roundings of at most |q0| + |q1|, and the time is rounded
+  // too. Both bodies of a pair move by it.
+  wayRounding_ = 4 * std::numeric_limits<double>::epsilon() * (slid + turned * longestLever());
   return true;
+}
+
+// No point of a body is farther from a joint that turns it.
+double MotionChains::longestLever() const {
+  double lever = 0;
+  for (const Placed& placed : bodies_) {
+    const double reach = placed.centre.norm() + placed.radius;
+    if (std::isfinite(reach)) lever = std::max(lever, reach);
+  }
+  for (std::size_t j = 0; j + 1 < hop_.size(); ++j) lever += hop_[j].length;
+  return lever;
 }
 
 // Goes from the outermost joint inwards. Each joint adds its own centripetal acceleration, and the Coriolis
@@ -190,9 +219,11 @@ void MotionChains::place(double t) {
     length = std::max(length, std::isfinite(reach) ? reach : body.body.pose.translation().lpNorm<1>());
   }
   // Each product and sum on the way from the root to a bound is rounded by a few units in the last place of
-  // the longest length.
+  // the longest length. The links' poses, and the velocities that follow from them, have a bound of their
+  // own.
   const double steps = static_cast<double>(hop_.size() + 16);
-  slack_ = 16 * std::numeric_limits<double>::epsilon() * steps * length * (1 + spin);
+  const double sums = 16 * std::numeric_limits<double>::epsilon() * steps * length;
+  slack_ = (sums + 2 * rounding_.most(q_)) * (1 + spin) + wayRounding_;
 }
 
 BodyVelocity MotionChains::velocityOf(const Pair& pair, int side, const Vector3d& about) const {

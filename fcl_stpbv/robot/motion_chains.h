@@ -8,6 +8,7 @@
 #include "fcl_stpbv/adapter/motion_search.h"
 #include "fcl_stpbv/adapter/posed_geometry.h"
 #include "fcl_stpbv/robot/collision_checker.h"
+#include "fcl_stpbv/robot/pose_rounding.h"
 
 namespace fcl_stpbv::detail {
 
@@ -70,6 +71,7 @@ class MotionChains {
   void addPair(const CheckedPair& pair, int bodies);
   Side sideOf(int body, int root);
   void prepare(Side& side) const;
+  double longestLever() const;
 
   const Kinematics& kinematics_;
   std::vector<Placed> bodies_;
@@ -83,6 +85,8 @@ class MotionChains {
   std::vector<Hop> hop_;      // for each joint, the base's last
   Eigen::VectorXd q0_, way_, q_;
   double reach_ = 0;  // largest distance of a joint's child from the joint, with the way it slides (m)
+  PoseRounding rounding_;
+  double wayRounding_ = 0;  // how far the rounding of q on the way moves a pair's bodies (m)
   double slack_ = 0;
 };
 
