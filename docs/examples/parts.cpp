@@ -8,8 +8,8 @@
 #include "docs/examples/named.h"
 #include "docs/examples/reported.h"
 #include "fcl_stpbv/adapter/fcl_distance.h"
-#include "fcl_stpbv/parts/convex_parts.h"
 #include "fcl_stpbv/mesh/mesh_file.h"
+#include "fcl_stpbv/parts/convex_parts.h"
 #include "fcl_stpbv/robot/scene_model.h"
 #include "fcl_stpbv/volume/stp_bv.h"
 

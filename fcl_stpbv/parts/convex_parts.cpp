@@ -2,10 +2,10 @@
 // 1. take the connected pieces (mesh_solid.h) and make them coarser for the search;
 // 2. search for few parts (part_search.h), by cutting and joining;
 // 3. cut the whole mesh again by the same planes;
-// 4. make sure that the inside is covered too. Parts made of joined facets grow until it is (fill_inside.cpp).
-//    For parts made by cuts it is proven (inside_proof.h), and a part gets those corners of its cells that
-//    the proof needs. If these corners increase the excess, two more methods are tried: parts that grow, and
-//    a search with all corners in the parts from the start. The best result is used;
+// 4. make sure that the inside is covered too. Parts made of joined facets grow until it is
+//    (fill_inside.cpp). For parts made by cuts it is proven (inside_proof.h), and a part gets those corners
+//    of its cells that the proof needs. If these corners increase the excess, two more methods are tried:
+//    parts that grow, and a search with all corners in the parts from the start. The best result is used;
 // 5. certify each hull's excess (mesh_solid.h).
 #include "fcl_stpbv/parts/convex_parts.h"
 

@@ -7,8 +7,8 @@
 
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/io/text_scanner.h"
-#include "fcl_stpbv/posture/task.h"
 #include "fcl_stpbv/mesh/json_text.h"
+#include "fcl_stpbv/posture/task.h"
 #include "fcl_stpbv/robot/near_name.h"
 
 namespace fcl_stpbv {

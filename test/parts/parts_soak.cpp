@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "fcl_stpbv/parts/convex_parts.h"
 #include "fcl_stpbv/mesh/mesh_file.h"
+#include "fcl_stpbv/parts/convex_parts.h"
 #include "fcl_stpbv/volume/measure.h"
 #include "test/reference/arguments.h"
 #include "test/reference/mesh_reference.h"

@@ -7,11 +7,11 @@
 #include <cmath>
 #include <functional>
 
+#include "fcl_stpbv/mesh/mesh_file.h"
 #include "fcl_stpbv/report/mesh_distance.h"
 #include "fcl_stpbv/report/mesh_fit.h"
 #include "fcl_stpbv/robot/constraints.h"
 #include "fcl_stpbv/robot/link_geometry.h"
-#include "fcl_stpbv/mesh/mesh_file.h"
 #include "fcl_stpbv/volume/tessellate.h"
 #include "test/reference/robots.h"
 #include "test/reference/shapes.h"

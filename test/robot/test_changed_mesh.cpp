@@ -5,10 +5,10 @@
 #include <set>
 
 #include "fcl_stpbv/error.h"
-#include "fcl_stpbv/robot/geometry_steps.h"
-#include "fcl_stpbv/robot/keyed_mesh.h"
 #include "fcl_stpbv/mesh/mesh_file.h"
 #include "fcl_stpbv/mesh/passing_error.h"
+#include "fcl_stpbv/robot/geometry_steps.h"
+#include "fcl_stpbv/robot/keyed_mesh.h"
 #include "test/reference/solids.h"
 #include "test/reference/volume_files.h"
 #include "test/robot/urdf_texts.h"

@@ -4,12 +4,12 @@
 
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/io/volume_files.h"
-#include "fcl_stpbv/robot/constraints.h"
 #include "fcl_stpbv/mesh/mesh_file.h"
+#include "fcl_stpbv/robot/constraints.h"
 #include "fcl_stpbv/volume/measure.h"
+#include "test/mesh/mesh_reads.h"
 #include "test/reference/robots.h"
 #include "test/reference/volume_files.h"
-#include "test/mesh/mesh_reads.h"
 #include "test/robot/urdf_texts.h"
 
 using namespace fcl_stpbv;

@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "fcl_stpbv/adapter/continuous_collide.h"
-#include "fcl_stpbv/adapter/distance_callback.h"
+#include "fcl_stpbv/adapter/fcl_distance.h"
 #include "fcl_stpbv/robot/batch.h"
 #include "fcl_stpbv/robot/collision_checker.h"
 #include "fcl_stpbv/robot/motion_check.h"

@@ -9,8 +9,8 @@
 
 #include "fcl_stpbv/adapter/fcl_distance.h"
 #include "fcl_stpbv/error.h"
-#include "fcl_stpbv/robot/constraints.h"
 #include "fcl_stpbv/mesh/mesh_file.h"
+#include "fcl_stpbv/robot/constraints.h"
 #include "fcl_stpbv/robot/scene_model.h"
 #include "fcl_stpbv/robot/triangle_tree.h"
 #include "test/reference/solids.h"

@@ -13,11 +13,11 @@
 
 #include "fcl_stpbv/adapter/stp_bv_geometry.h"
 #include "fcl_stpbv/error.h"
+#include "fcl_stpbv/mesh/mesh_file.h"
 #include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/parts/convex_parts.h"
 #include "fcl_stpbv/report/tick_time.h"
 #include "fcl_stpbv/robot/checked_pairs.h"
-#include "fcl_stpbv/mesh/mesh_file.h"
 #include "tools/bench/measurement.h"
 #include "tools/bench/parts/hacd.h"
 #include "tools/program.h"

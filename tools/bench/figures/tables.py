@@ -392,7 +392,8 @@ def posture_study():
 def posture_ipopt():
     about = measured("posture_ipopt")["about"]
     count = lambda row: f"{row['points']:.0f}" + (f" + {row['hessians']:.0f}" if row["hessians"] else "")
-    return markdown(("distances", "solver", f"solved of {about['tasks']}, first start", f"within {about['starts']}", "points + Hessians", "ms", "ms, mean of all tasks"),
+    return markdown(("distances", "solver", f"solved of {about['tasks']}, first start", f"within {about['starts']}", "points + Hessians", "ms",
+                     "ms, mean of all tasks"),
                     [(row["bodies"], row["solver"], row["first"], row["within"], count(row), f"{row['ms']:g}", f"{row['mean_ms']:g}")
                      for row in measured("posture_ipopt")["rows"]])
 
