@@ -7,8 +7,8 @@
 #include <set>
 #include <utility>
 
+#include "fcl_stpbv/mesh/mesh_file.h"
 #include "fcl_stpbv/robot/constraints.h"
-#include "fcl_stpbv/robot/mesh_file.h"
 #include "fcl_stpbv/robot/pair_list.h"
 #include "fcl_stpbv/robot/pair_proof.h"
 #include "fcl_stpbv/robot/pair_search.h"
