@@ -166,8 +166,8 @@ class CollisionConstraints {
   /// The answer of a row's pair at the last evaluation. The status is `invalid` if the pair was not queried,
   /// because bounding spheres or `handOver` made its row constant, and for the row of a smooth constraint,
   /// which has no points. Then nothing else of the answer is known, as for any pair without an answer (the
-  /// distance is minus infinity): use the row's d. hessian() queries only rows whose weight is not 0, so call
-  /// evaluate() again before answer().
+  /// distance is minus infinity): use the row's d. hessian() queries only rows whose weight is not 0; call
+  /// evaluate() again before answer() of the others.
   RowAnswer answer(int row) const;
   /// The poses of the links at the last evaluation. Only the links of the rows' bodies and their ancestors
   /// are up to date.

@@ -53,6 +53,9 @@ void CollisionConstraints::makeRoomForHessian() {
 void CollisionConstraints::prepareHessian(const ConstVector& q) {
   makeRoomForHessian();
   place(q);
+  // Rows that are not queried now must not keep the answers of another q. Whole bodies were queried.
+  for (std::size_t row = 0; row < pairs_.size(); ++row)
+    if (!rows_[row].whole) found_[row].status = answers_[row].status = DistanceStatus::invalid;
   moved_.setZero();
   for (int k = 0; k < columns(); ++k) {
     moved_[k] = 1;

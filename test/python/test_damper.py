@@ -168,6 +168,8 @@ def test_answers_have_the_points_and_normals_of_each_row():
     for row, answer in enumerate(answers):
         if answer.status == fcl_stpbv.Status.invalid:
             assert d[row] == pytest.approx(0.15, abs=1e-12)  # so far that its spheres were enough: 3/4 of influence
+            assert answer.distance == answer.lower == -math.inf and answer.upper == math.inf
+            assert not answer.normal.any() and not answer.points.any()
             continue
         assert answer.status == fcl_stpbv.Status.exact and answer.continuous and answer.points.shape == (2, 3)
         assert answer.lower <= answer.distance <= answer.upper

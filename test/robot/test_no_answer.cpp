@@ -105,6 +105,25 @@ TEST_CASE("A row without a result has no answer, old or made up") {
   }
 }
 
+TEST_CASE("A Hessian leaves no old answers to the rows that it does not ask") {
+  const Slide slide;
+  for (const bool smooth : {false, true}) {
+    CollisionConstraints rows(slide.kinematics, slide.geometry(smooth), {{0, 1, false}, {1, 0, false}});
+    VectorXd d(2), weights(2);
+    weights << 0, 1;
+    CollisionConstraints::SparseHessian lower = rows.makeHessian();
+    rows.evaluate(slide.at(0.9), d);
+    CHECK(rows.hessian(slide.at(0.3), weights, lower));
+    checkNothing(rows.answer(0));
+    CHECK(rows.answer(1).distance == Approx(0.1));
+    Eigen::MatrixXd full(2, 2);
+    rows.evaluate(slide.at(0.9), d);
+    CHECK(rows.hessian(slide.at(0.3), 0, full));
+    checkNothing(rows.answer(1));
+    CHECK(rows.answer(0).distance == Approx(0.1));
+  }
+}
+
 TEST_CASE("A smooth constraint without a value is a row without a distance") {
   const Slide slide;
   ConstraintOptions options;
