@@ -29,7 +29,7 @@ bool CollisionChecker::Impl::place(const ConstVector& q) {
   kinematics_->forwardPoses(q, state_, placing_);
   placeSpheres();
   slack_ = 2 * rounding_.most(q);
-  constexpr double kMost = 1e-3;  // m; for links so far away that rounding moves them more, nothing is known
+  constexpr double kMost = 1e-3;  // m; where rounding may move links by more, nothing is known
   return slack_ < kMost;
 }
 

@@ -17,7 +17,7 @@ namespace fcl_stpbv {
 /// A pair that is not known to be clear.
 struct Hit {
   /// Index into pairs(). -1 if q is not a valid configuration, so that no pair is clear: it has a wrong size,
-  /// a value is not finite, or links are so far away that rounding moves them by 1 mm or more.
+  /// a value is not finite, or links are so far away that rounding may move them by 1 mm.
   int pair = -1;
   CheckedPair bodies{-1, -1, false};  ///< the bodies of the pair
 };

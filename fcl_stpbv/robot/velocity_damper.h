@@ -43,7 +43,8 @@ struct DamperOptions {
   /// 1 / period, at level `acceleration` to 1 / (3 period), at level `barrier` a + g to 1 / period. With
   /// larger gains a pair could pass `security` between two periods. At level `barrier`, when a pair enters, a
   /// and g are raised to at most 1 / (3 period) each. So a row acts at once if the pair would reach
-  /// `security` within 1 period (with accelerations 3, at level `barrier` 6).
+  /// `security` within 1 period (with accelerations 3, at level `barrier` 6, or less with a larger gain
+  /// given).
   double period = 1e-3;
   double barrierGain = 50;  ///< g (1/s), for `barrier`
 };
