@@ -6,6 +6,7 @@
 
 #include "fcl_stpbv/robot/collision_checker.h"
 #include "fcl_stpbv/robot/motion_check.h"
+#include "fcl_stpbv/robot/pose_rounding.h"
 #include "test/reference/robots.h"
 #include "test/robot/urdf_texts.h"
 
@@ -92,7 +93,105 @@ Real geared(double multiplier, double q) {
   return std::sqrt(x * x + y * y);
 }
 
+using Matrix4L = Eigen::Matrix<Real, 4, 4>;
+using Vector3L = Eigen::Matrix<Real, 3, 1>;
+
+Matrix4L turned(const Vector3L& axis, Real angle) {
+  Matrix4L pose = Matrix4L::Identity();
+  pose.topLeftCorner<3, 3>() = Eigen::AngleAxis<Real>(angle, axis).toRotationMatrix();
+  return pose;
+}
+Matrix4L moved(const Vector3L& way) {
+  Matrix4L pose = Matrix4L::Identity();
+  pose.topRightCorner<3, 1>() = way;
+  return pose;
+}
+
+/// A chain of joints of all types, some of which mimic the first one.
+std::string chain(int joints, Random& random) {
+  const char* const types[] = {"revolute", "prismatic", "fixed", "floating", "planar"};
+  std::string text = link("l0") + link("l1") + joint("s", "revolute", "l0", "l1", kZ, 4);
+  for (int i = 1; i <= joints; ++i) {
+    const int type = i % 7 == 0 ? 3 : i % 5 == 0 ? 4 : i % 3;
+    const auto three = [&](double size) {
+      std::string list;
+      for (int k = 0; k < 3; ++k) list += number(random.uniform(-size, size)) + " ";
+      return list;
+    };
+    const std::string place = "<origin xyz=\"" + three(random.uniform(0, 1) < 0.1 ? 100 : 0.5) + "\" rpy=\"" +
+                              three(3) + "\"/><axis xyz=\"" + three(1) + "\"/>";
+    const bool follows = type < 2 && random.uniform(0, 1) < 0.3;
+    text += link("l" + std::to_string(i + 1)) +
+            joint("j" + std::to_string(i), types[type], "l" + std::to_string(i), "l" + std::to_string(i + 1),
+                  place + (follows ? mimic(random.uniform(-1e4, 1e4), random.uniform(-10, 10)) : ""), 4);
+  }
+  return text;
+}
+
+/// The last link's pose, in long double from the model's numbers.
+Matrix4L lastPose(const Kinematics& kinematics, const VectorXd& q) {
+  const RobotModel& robot = kinematics.robot();
+  Matrix4L pose = Matrix4L::Identity();
+  if (kinematics.baseMoves()) {
+    const Vector3L w = q.segment<3>(3).cast<Real>();
+    pose = moved(q.head<3>().cast<Real>()) * turned(w.normalized(), w.norm());
+  }
+  for (const LinkModel& link : robot.links) {
+    if (link.parentJoint < 0) continue;
+    const JointModel& joint = robot.joints[static_cast<std::size_t>(link.parentJoint)];
+    pose = pose * joint.origin.matrix().cast<Real>();
+    const Vector3L axis = joint.axis.cast<Real>().normalized();
+    const std::string& leader =
+        joint.mimic ? robot.joints[static_cast<std::size_t>(joint.mimic->joint)].name : joint.name;
+    const int k = kinematics.coordinate(leader);
+    if (joint.type == JointType::fixed) continue;
+    if (joint.type == JointType::floating) {
+      const Vector3L w = q.segment<3>(k + 3).cast<Real>();
+      pose = pose * moved(q.segment<3>(k).cast<Real>()) * turned(w.normalized(), w.norm());
+    } else if (joint.type == JointType::planar) {
+      Eigen::Quaternion<Real> plane;
+      plane.setFromTwoVectors(Vector3L(0, 0, 1), axis);
+      pose = pose * moved(plane * Vector3L(q[k], q[k + 1], 0)) * turned(axis, q[k + 2]);
+    } else {
+      Real value = q[k];
+      if (joint.mimic)
+        value = static_cast<Real>(joint.mimic->multiplier) * value + static_cast<Real>(joint.mimic->offset);
+      pose = pose * (joint.type == JointType::prismatic ? moved(value * axis) : turned(axis, value));
+    }
+  }
+  return pose;
+}
+
 }  // namespace
+
+TEST_CASE("the bound on a chain's rounding holds, and is of the right size") {
+  Random random(11);
+  double most = 0;
+  for (int trial = 0; trial < 300; ++trial) {
+    const auto model =
+        std::make_shared<const RobotModel>(parseUrdf(robot(chain(1 + trial % 30, random)), "chain.urdf"));
+    const Kinematics kinematics(model, trial % 2 ? BaseMotion::floating : BaseMotion::fixed);
+    const int last = static_cast<int>(model->links.size()) - 1;
+    const double reach = random.uniform(0, 2);
+    const detail::PoseRounding rounding(kinematics, {{last, reach}});
+    Kinematics::State state = kinematics.makeState();
+    for (int k = 0; k < 10; ++k) {
+      const double size = random.uniform(0, 1) < 0.3 ? 1e3 : 3;
+      VectorXd q(kinematics.size());
+      for (Eigen::Index i = 0; i < q.size(); ++i) q[i] = random.uniform(-size, size);
+      kinematics.forwardPoses(q, state);
+      const Eigen::Vector3d point = reach * randomDirection(3, random);
+      const Vector3L truth = (lastPose(kinematics, q) * point.cast<Real>().homogeneous()).head<3>();
+      const Eigen::Vector3d placed = state.link[static_cast<std::size_t>(last)] * point;
+      const double error = static_cast<double>((placed.cast<Real>() - truth).norm());
+      CAPTURE(trial, k, error);
+      CHECK(error <= rounding.most(q));
+      most = std::max(most, error / rounding.most(q));
+    }
+  }
+  // Where one term of the sum dominates, such as the angle of a joint that is geared up far.
+  CHECK(most > 0.1);
+}
 
 TEST_CASE("no margin that a pair reaches is called kept, however far away the links between its bodies are") {
   Random random(3);
