@@ -32,13 +32,9 @@ Arm ballsOnArm(BaseMotion base = BaseMotion::fixed) {
   const auto turn = [](const std::string& name, const std::string& parent, const std::string& child) {
     return joint(name, "revolute", parent, child, "<origin xyz=\"0.5 0 0\"/><axis xyz=\"0 1 0\"/>");
   };
-  const auto model =
-      std::make_shared<const RobotModel>(parseUrdf(robot(link("a", ball) + link("b", ball) + link("c", ball) +
-                                                         turn("j1", "a", "b") + turn("j2", "b", "c")),
-                                                   "small.urdf"));
-  GeometryOptions options;
-  options.cacheFolder.clear();
-  return armFrom(model, loadGeometry(*model, options), base);
+  return armFrom(parsed(robot(link("a", ball) + link("b", ball) + link("c", ball) + turn("j1", "a", "b") +
+                              turn("j2", "b", "c"))),
+                 base);
 }
 
 std::vector<PairEntry> listOf(const Arm& arm, const std::vector<Obstacle>& obstacles) {
