@@ -216,9 +216,9 @@ def test_a_row_is_the_distance_up_to_exact_up_to_and_bends_over_beyond(robot):
     for wrong in (0.2, 0.3, -1.0, math.nan, math.inf):
         with pytest.raises(fcl_stpbv.Error, match="^exact_up_to: got .* below influence"):
             fcl_stpbv.Robot(*FILES, influence=0.2, exact_up_to=wrong)
-    for more in ({}, {"hand_over": 0.1}):
+    for hand_over in (math.inf, 0.1):
         with pytest.raises(fcl_stpbv.Error, match="^exact_up_to: got 0.05, which needs an influence"):
-            fcl_stpbv.Robot(*FILES, exact_up_to=0.05, **more)
+            fcl_stpbv.Robot(*FILES, exact_up_to=0.05, hand_over=hand_over)
 
 
 def test_the_bound_on_the_acceleration_is_the_formula_of_the_page():
