@@ -451,11 +451,11 @@ class MeshToStpbv(ToolCase):
             for name in ("cloud.txt", "cloud.xyz", "cloud", "-"):
                 with self.subTest(first=first, name=name):
                     if name != "-":
-                        write(self.at(name), text)
+                        self.put(name, text)
                     stdin = {"stdin": name} if name != "-" else {"stdin": "cloud"}
                     done = self.run_tool(name, "-o", "cloud.stpbv", "-R", "1000", "--json", "--force", **stdin)
                     self.assertEqual(json.loads(done.stdout)["points"], 5)
-            write(self.at("wrong.xyz"), text + "1 two 3\n")
+            self.put("wrong.xyz", text + "1 two 3\n")
             self.refused("wrong.xyz", "-o", "new.stpbv", code=1, says=["wrong.xyz:6: got 'two', expected a coordinate"])
         self.refused("cloud.xyz", "-o", "new.stpbv", "--scale", "1e-300", code=1, says=["cloud.xyz: "])
 

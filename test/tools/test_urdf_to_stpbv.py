@@ -4,6 +4,7 @@
 """
 import hashlib
 import json
+import os
 import pathlib
 import random
 import re
