@@ -35,11 +35,12 @@ class Contacts {
   }
 
  private:
-  /// Whether the exact distance is cheaper than the yes-or-no test.
+  /// Whether the exact distance is cheaper than the yes-or-no test, which visits a polytope's vertices again.
   static bool isQuick(const ConvexBody& a, const ConvexBody& b) {
-    const auto isBall = [](const ConvexBody& c) { return c.shape.kind == ShapeKind::point; };
+    const auto is = [](const ConvexBody& c, ShapeKind kind) { return !c.volume && c.shape.kind == kind; };
     if (a.unbounded() || b.unbounded()) return true;
-    return a.volume || b.volume || isBall(a) || isBall(b);
+    if (!a.volume && !b.volume) return is(a, ShapeKind::point) || is(b, ShapeKind::point);
+    return (a.volume && b.volume) || is(a, ShapeKind::polytope) || is(b, ShapeKind::polytope);
   }
   bool meet(const ConvexBody& a, const ConvexBody& b, Contactd& contact) {
     const bool apart = isQuick(a, b) ? isFartherByBounds(a.rounding + b.rounding, a, b, cache_)

@@ -138,7 +138,7 @@ std::optional<StartNormal> normalBetween(ShapeQuery& q, const StartNormal& start
 
 Solution solve(ShapeQuery& q, const StartNormal& start) {
   constexpr double kNone = kInfinity;
-  constexpr int kTries = 8;        // one to five are usual; bodies that overlap take all of them
+  constexpr int kTries = 12;       // one to five are usual; bodies that overlap take all of them
   constexpr int kMoreTries = 16;   // from a plane between the bodies
   constexpr double kBeyond = 1e3;  // of rounding; a smaller overlap may be a touch
   Nearest found;
