@@ -29,7 +29,7 @@ struct Outcome {
   double reversals = 0;   ///< number per second and joint: two ticks above 1 rad/s^2 in opposite directions
   double switches = 0;    ///< number of changes of the acting collision rows per second
   double clearance = 0;   ///< least distance of the true hulls (m)
-  double tracking = 0;    ///< mean distance from the path, without the direction that is blocked (m)
+  double tracking = 0;    ///< mean distance from the path, hands added, blocked direction left out (m)
   double solve = 0;       ///< median time of rows and program together (us)
   long failed = 0;        ///< ticks without a solution
   ContactMotion contact;  ///< over the pairs within their damper's influence
