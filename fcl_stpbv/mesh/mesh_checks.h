@@ -9,6 +9,10 @@
 
 namespace fcl_stpbv::detail {
 
+/// Whether a file has the length of a binary STL: a header of 80 bytes, the number of triangles, and 50 bytes
+/// for each.
+bool hasLengthOfBinaryStl(std::string_view text);
+
 // Each throws Error saying what is wrong, with the file's name and, in texts, the line.
 
 /// OBJ, text STL, OFF and COLLADA, depending on `extension` (".obj", lower case). Other formats pass.

@@ -8,8 +8,6 @@
 
 #include <algorithm>
 #include <assimp/Importer.hpp>
-#include <cstdint>
-#include <cstring>
 
 #include "fcl_stpbv/error.h"
 #include "fcl_stpbv/mesh/file_ending.h"
@@ -32,15 +30,6 @@ bool looksLikeGltf(std::string_view text) {
   return text.substr(0, 4) == "glTF" || text.substr(start, 1) == "{";
 }
 
-// A header of 80 bytes, the number of triangles, and 50 bytes for each.
-bool isBinaryStl(std::string_view text) {
-  constexpr std::size_t kHeader = 84, kTriangle = 50;
-  std::uint32_t count = 0;
-  if (text.size() < kHeader) return false;
-  std::memcpy(&count, text.data() + kHeader - sizeof count, sizeof count);
-  return text.size() == kHeader + kTriangle * std::size_t(count);
-}
-
 // The first word of the first line that is no comment.
 std::string_view firstWord(std::string_view text) {
   const std::string name;
@@ -61,7 +50,7 @@ std::string formatByContent(std::string_view text) {
   constexpr std::size_t kHead = 4096;  // comments may come before the root of an XML text
   if (text.substr(0, 3) == "ply") return ".ply";
   if (text.substr(0, 4) == "glTF") return ".glb";
-  if (isBinaryStl(text)) return ".stl";
+  if (hasLengthOfBinaryStl(text)) return ".stl";
   if (text.substr(0, kHead).find("<COLLADA") != std::string_view::npos) return ".dae";
   const std::string_view word = firstWord(text);
   if (word == "solid") return ".stl";

@@ -1,6 +1,8 @@
 // Checks OBJ and STL text line by line for errors that assimp ignores.
 #include <algorithm>
 #include <charconv>
+#include <cstdint>
+#include <cstring>
 #include <iterator>
 #include <set>
 
@@ -171,16 +173,10 @@ void checkObj(std::string_view text, const std::string& name) {
   if (furthest > vertices) lines.damaged(where, "a face names a vertex that does not exist");
 }
 
-// A binary STL has the length that its count of triangles requires, and may begin with "solid" nevertheless.
+// A binary STL may begin with "solid" nevertheless.
 bool isBinaryStl(std::string_view text) {
-  constexpr std::size_t kHead = 84, kTriangle = 50;
   const std::size_t start = std::min(text.find_first_not_of(" \t"), text.size());
-  if (!beginsWith(text.substr(start), "solid")) return true;
-  if (text.size() < kHead) return false;
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < 4; ++i)
-    count |= static_cast<std::size_t>(static_cast<unsigned char>(text[80 + i])) << 8 * i;
-  return text.size() == kHead + kTriangle * count;
+  return !beginsWith(text.substr(start), "solid") || hasLengthOfBinaryStl(text);
 }
 
 /// Follows the solids of an STL and their facets. After an "endsolid" assimp reads on only if "solid" is
@@ -274,6 +270,14 @@ std::string_view pastByteOrderMark(std::string_view text, const std::string& nam
 }
 
 }  // namespace
+
+bool hasLengthOfBinaryStl(std::string_view text) {
+  constexpr std::size_t kHeader = 84, kTriangle = 50;
+  if (text.size() < kHeader) return false;
+  std::uint32_t count = 0;
+  std::memcpy(&count, text.data() + kHeader - sizeof count, sizeof count);
+  return text.size() == kHeader + kTriangle * std::size_t{count};
+}
 
 double checkTextMesh(std::string_view text, const std::string& extension, const std::string& name) {
   const bool obj = extension == ".obj", off = extension == ".off", dae = extension == ".dae";
