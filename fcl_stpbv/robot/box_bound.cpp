@@ -42,6 +42,19 @@ void moveInto(const BodyPoints& body, const Eigen::Isometry3d& pose, BodyPoints&
   moved.reach = body.reach;
 }
 
+// The coordinate of a joint, or of the one that it mimics.
+int coordinateOf(const Kinematics& kinematics, const JointModel& joint) {
+  const std::vector<JointModel>& joints = kinematics.robot().joints;
+  return kinematics.coordinate(joint.mimic ? joints[at(joint.mimic->joint)].name : joint.name);
+}
+
+// Its place among the pair's coordinates; -1 if it is none of them.
+int slotOf(const PairSearch& search, int coordinate) {
+  const std::vector<int>& own = search.coordinates();
+  const auto found = std::find(own.begin(), own.end(), coordinate);
+  return found == own.end() ? -1 : static_cast<int>(found - own.begin());
+}
+
 }  // namespace
 
 PairSearch searchOf(const ProofScene& scene, const LinkPair& pair) {
@@ -60,11 +73,7 @@ BoxBound::BoxBound(const ProofScene& scene, const LinkPair& pair)
     box.slides = joint.type == JointType::prismatic;
     box.up = i < path.up;
     if (joint.mimic) box.rate = joint.mimic->multiplier;
-    const std::string& owner = joint.mimic ? robot.joints[at(joint.mimic->joint)].name : joint.name;
-    const std::vector<int>& coordinates = search_.coordinates();
-    box.slot = static_cast<int>(
-        std::find(coordinates.begin(), coordinates.end(), scene.kinematics->coordinate(owner)) -
-        coordinates.begin());
+    box.slot = slotOf(search_, coordinateOf(*scene.kinematics, joint));
     joints_.push_back(box);
     models_.push_back(&joint);
   }
@@ -77,15 +86,11 @@ BoxBound::BoxBound(const ProofScene& scene, const LinkPair& pair)
 
 void BoxBound::addHops(int link) {
   const RobotModel& robot = scene_.kinematics->robot();
-  const std::vector<int>& coordinates = search_.coordinates();
-  for (int j = robot.links[at(link)].parentJoint; j >= 0;
-       j = robot.links[at(robot.joints[at(j)].parent)].parentJoint) {
+  for (const int j : jointPath(robot, link, 0).joints) {
     Hop hop{&robot.joints[at(j)]};
     if (hop.joint->type == JointType::prismatic) {
-      const JointModel& owner = hop.joint->mimic ? robot.joints[at(hop.joint->mimic->joint)] : *hop.joint;
-      hop.coordinate = scene_.kinematics->coordinate(owner.name);
-      const auto own = std::find(coordinates.begin(), coordinates.end(), hop.coordinate);
-      if (own != coordinates.end()) hop.slot = static_cast<int>(own - coordinates.begin());
+      hop.coordinate = coordinateOf(*scene_.kinematics, *hop.joint);
+      hop.slot = slotOf(search_, hop.coordinate);
     }
     hops_.push_back(hop);
   }

@@ -12,6 +12,7 @@
 #include "fcl_stpbv/robot/pair_list.h"
 #include "fcl_stpbv/robot/pair_proof.h"
 #include "fcl_stpbv/robot/pair_search.h"
+#include "test/reference/robots.h"
 #include "test/reference/solids.h"
 #include "test/robot/urdf_texts.h"
 
@@ -34,19 +35,18 @@ struct Corner {
   explicit Corner(bool farFirst) : near(farFirst ? 1 : 0) {
     const TemporaryFolder folder;
     saveMesh(folder / "l.obj", lShape());
-    const auto model = std::make_shared<const RobotModel>(
-        parseUrdf(robot(link("base") + link("l", "<mesh filename=\"" + (folder / "l.obj") + "\"/>") +
-                        "<joint name=\"j\" type=\"revolute\"><parent link=\"base\"/><child link=\"l\"/>"
-                        "<axis xyz=\"0 0 1\"/><limit lower=\"-0.05\" upper=\"0.05\" effort=\"1\" "
-                        "velocity=\"1\"/></joint>"),
-                  "small.urdf"));
     GeometryOptions options;
-    options.cacheFolder.clear();
     options.radii = {0.001, 10};
+    LoadedRobot loaded =
+        parsed(robot(link("base") + link("l", "<mesh filename=\"" + (folder / "l.obj") + "\"/>") +
+                     "<joint name=\"j\" type=\"revolute\"><parent link=\"base\"/><child link=\"l\"/>"
+                     "<axis xyz=\"0 0 1\"/><limit lower=\"-0.05\" upper=\"0.05\" effort=\"1\" "
+                     "velocity=\"1\"/></joint>"),
+               options);
     parts =
-        std::make_unique<LinkParts>(std::make_shared<const RobotGeometry>(loadGeometry(*model, options)), "");
+        std::make_unique<LinkParts>(std::make_shared<const RobotGeometry>(std::move(loaded.geometry)), "");
     parts->prepare({{kL, 2}}, 1);
-    kinematics = std::make_shared<const Kinematics>(model);
+    kinematics = std::make_shared<const Kinematics>(loaded.model);
     const auto ball = [](double x, double y) {
       const fcl::CollisionObjectd object(std::make_shared<fcl::Sphered>(0.02),
                                          fcl::Transform3d(Eigen::Translation3d(x, y, 0.025)));
