@@ -4,7 +4,6 @@ The loop of controller.cpp: once on smooth bodies (r = 1 cm, R = 10 m), once on 
 same margin, whose gradient all but jumps. Writes controller_py.csv and controller_py.html into the folder.
 """
 import pathlib
-import re
 import sys
 import tempfile
 import xml.etree.ElementTree as xml
@@ -12,6 +11,7 @@ import xml.etree.ElementTree as xml
 import numpy as np
 
 import fcl_stpbv
+from chart import chart, page
 
 PERIOD, DURATION = 1e-3, 6  # s
 INFLUENCE, SECURITY, DAMPING = 0.05, 0.01, 0.5  # m, m, m/s
@@ -78,34 +78,14 @@ def run(urdf, r, R, margin):
     return np.array(ticks)
 
 
-def chart(title, low, high, curves, level=None):
-    """Curves over time from 10^low to 10^high, as chart.h draws them; `level`: (name, value) of a dashed line."""
-    x = lambda time: 56 + 734 * time / DURATION
-    y = lambda value: 234 - 204 * (np.clip(np.log10(np.maximum(value, 10.0**low)), low, high) - low) / (high - low)
-    svg = [f"<h2>{title}</h2>", "<div class='chart'><svg viewBox='0 0 800 276'>", "<text x='423' y='272' text-anchor='middle'>time (s)</text>"]
-    for value in 10.0 ** np.arange(low, high + 1):
-        svg.append(f"<path d='M56 {y(value):g}H790' stroke='currentColor' opacity='.15'/><text x='50' y='{y(value) + 5:g}' text-anchor='end'>{value:g}</text>")
-    for time in range(DURATION + 1):
-        svg.append(f"<path d='M{x(time):g} 30V234' stroke='currentColor' opacity='.15'/><text x='{x(time):g}' y='252' text-anchor='middle'>{time}</text>")
-    if level:
-        svg.append(f"<path d='M56 {y(level[1]):g}H790' stroke='currentColor' stroke-dasharray='6 4'/><text x='62' y='{y(level[1]) - 6:g}'>{level[0]}</text>")
-    for i, (name, colour, values) in enumerate(curves):
-        points = " ".join(f"{x(PERIOD * k):.1f},{at:.1f}" for k, at in enumerate(y(values)))
-        svg.append(f"<path d='M{56 + 240 * i} 12h24' stroke='{colour}' stroke-width='3'/><text x='{86 + 240 * i}' y='17'>{name}</text>"
-                   f"<polyline fill='none' stroke='{colour}' stroke-width='1.5' points='{points}'/>")
-    return "\n".join(svg) + "</svg></div>\n"
-
-
-def page(found, smooth, sharp):
-    """A page with the curves, in the style of the C++ examples' pages."""
-    style = re.search(r'R"\((.*?)\)"', pathlib.Path(__file__).with_name("page_head.h").read_text(), re.DOTALL)[1]
+def page_of(found, smooth, sharp):
+    """The page with the curves of both runs."""
     curves = lambda column, unit: [("nearly sharp bodies", "var(--hulls)", sharp[:, column] / unit),
                                    ("smooth bodies", "var(--smooth)", smooth[:, column] / unit)]
-    return (f'<!DOCTYPE html>\n<html lang="en"><meta charset="utf-8"><meta name="viewport" content="width=device-width"><title>{found}</title>\n'
-            f"<style>{style}</style>\n<h1>{found}</h1>\n<p>Two arms move the boxes they hold past each other, kept apart by a velocity damper. "
-            "The peaks are those after 0.5 s: before, the arms start from rest.</p>\n"
-            + chart("Largest joint acceleration (rad/s²)", -1, 3, curves(1, 1))
-            + chart("Distance beyond the margins (mm)", 0, 3, curves(0, 1e-3), ("10 mm, to be kept", 10)) + "</html>\n")
+    return page(found, "Two arms move the boxes they hold past each other, kept apart by a velocity damper. "
+                       "The peaks are those after 0.5 s: before, the arms start from rest.",
+                [chart("Largest joint acceleration (rad/s²)", DURATION, -1, 3, curves(1, 1)),
+                 chart("Distance beyond the margins (mm)", DURATION, 0, 3, curves(0, 1e-3), ("10 mm, to be kept", 10))])
 
 
 def main(project, folder):
@@ -124,7 +104,7 @@ def main(project, folder):
                header="seconds,distance,acceleration,distance_sharp,acceleration_sharp")
     peak, peak_sharp = smooth[500:, 1].max(), sharp[500:, 1].max()  # without the start from rest
     found = f"On smooth bodies the joints reach {peak:.1f} rad/s², on nearly sharp ones {peak_sharp:.0f} rad/s²"
-    path.with_suffix(".html").write_text(page(found, smooth, sharp), encoding="utf-8")
+    path.with_suffix(".html").write_text(page_of(found, smooth, sharp), encoding="utf-8")
     print(f"peak acceleration {peak:.3g} rad/s^2 on smooth bodies, {peak_sharp:.3g} on sharp ones; {smooth[:, 0].min():.4f} m kept")
     return 0 if peak_sharp > 10 * peak and smooth[:, 0].min() > 0.99 * SECURITY else 1
 
