@@ -15,6 +15,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 #include "fcl_stpbv/convex/simplex.h"
 
@@ -50,41 +51,43 @@ GjkResult<Corner> gjk(Difference& difference, const Simplex<Corner>& start, cons
   using Verdict = typename GjkResult<Corner>::Verdict;
   GjkResult<Corner> result;
   result.n = n;
-  Simplex<Corner> grown = start;
-  if (grown.size == 0) {
-    grown.add(difference.support(n));
+  Simplex<Corner> one = start, other;  // they take turns, which copies less
+  Simplex<Corner>*simplex = &one, *reduced = &other;
+  const auto finished = [&](Verdict verdict) {
+    result.simplex = *simplex;
+    result.verdict = verdict;
+    return result;
+  };
+  if (simplex->size == 0) {
+    simplex->add(difference.support(n));
     result.widest = n;
   }
-  for (std::size_t i = 0; i < static_cast<std::size_t>(grown.size); ++i)
-    result.lower = std::max(result.lower, grown.corner[i].gap);
+  for (std::size_t i = 0; i < static_cast<std::size_t>(simplex->size); ++i)
+    result.lower = std::max(result.lower, simplex->corner[i].gap);
   for (int step = 0; step < steps; ++step) {
-    Simplex<Corner> reduced;
-    const NearestPoint nearest = reduceToNearest(grown, reduced);
+    const NearestPoint nearest = reduceToNearest(*simplex, *reduced);
     const double length = nearest.point.norm();
-    if (nearest.inside || !(length > rounding)) {
-      result.simplex = grown;
-      result.verdict = Verdict::overlap;
-      return result;
+    if (nearest.inside || !(length > rounding)) return finished(Verdict::overlap);
+    if (!(length < result.upper)) {  // rounding: no improvement
+      --simplex->size;               // the new corner
+      return finished(Verdict::apart);
     }
-    result.verdict = Verdict::apart;
-    if (!(length < result.upper)) return result;  // rounding: no improvement
-    result.simplex = reduced;
+    std::swap(simplex, reduced);
     result.v = nearest.point;
     result.upper = length;
     const bool hasDirection = nearest.direction.squaredNorm() > std::numeric_limits<double>::min();
     result.n = (hasDirection ? nearest.direction : nearest.point).normalized();
-    if (enough(result.lower, result.upper)) return result;
+    if (enough(result.lower, result.upper)) return finished(Verdict::apart);
     const Corner next = difference.support(result.n);
     if (next.gap > result.lower) {
       result.lower = next.gap;
       result.widest = result.n;
     }
-    if (enough(result.lower, result.upper) || result.simplex.holds(next.w)) return result;
-    grown = result.simplex;
-    grown.add(next);
+    if (enough(result.lower, result.upper) || simplex->holds(next.w)) return finished(Verdict::apart);
+    simplex->add(next);
   }
-  result.verdict = Verdict::capped;
-  return result;
+  --simplex->size;
+  return finished(Verdict::capped);
 }
 
 }  // namespace fcl_stpbv::detail

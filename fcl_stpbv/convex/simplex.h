@@ -70,49 +70,51 @@ struct SimplexFace {
 
 inline const Eigen::Vector3d& at(const SimplexPoints& s, int i) { return s[detail::at(i)]; }
 
-inline SimplexFace nearestOnCorner(const SimplexPoints& s, int i) {
-  return {{i, 0, 0}, {1, 0, 0}, 1, at(s, i), at(s, i), at(s, i).squaredNorm()};
+/// Makes a corner the best face if it is nearer than the best so far.
+inline void offerCorner(const SimplexPoints& s, int i, SimplexFace& best) {
+  const double squared = at(s, i).squaredNorm();
+  if (squared < best.squared) best = {{i, 0, 0}, {1, 0, 0}, 1, at(s, i), at(s, i), squared};
 }
 
-inline SimplexFace nearestOnEdge(const SimplexPoints& s, int i, int j) {
+/// The same for an edge, or the end of it that is nearest.
+inline void offerEdge(const SimplexPoints& s, int i, int j, SimplexFace& best) {
   const Eigen::Vector3d &a = at(s, i), &b = at(s, j);
   const Eigen::Vector3d ab = b - a;
   const double along = -a.dot(ab), back = b.dot(ab);
-  if (!(along > 0)) return nearestOnCorner(s, i);
-  if (!(back > 0)) return nearestOnCorner(s, j);
+  if (!(along > 0)) return offerCorner(s, i, best);
+  if (!(back > 0)) return offerCorner(s, j, best);
   const double t = along / (along + back);  // both are accurate; their sum is |ab|^2
   const Eigen::Vector3d point = t < 0.5 ? Eigen::Vector3d(a + t * ab) : Eigen::Vector3d(b - (1 - t) * ab);
-  return {{i, j, 0}, {1 - t, t, 0}, 2, point, point, point.squaredNorm()};
+  const double squared = point.squaredNorm();
+  if (squared < best.squared) best = {{i, j, 0}, {1 - t, t, 0}, 2, point, point, squared};
 }
 
-inline SimplexFace closer(const SimplexFace& a, const SimplexFace& b) {
-  return b.squared < a.squared ? b : a;
-}
-
-inline SimplexFace nearestOnTriangle(const SimplexPoints& s, int i, int j, int k) {
+/// The same for a triangle, or the edge or the corner of it that is nearest.
+inline void offerTriangle(const SimplexPoints& s, int i, int j, int k, SimplexFace& best) {
   const Eigen::Vector3d &a = at(s, i), &b = at(s, j), &c = at(s, k);
   const Eigen::Vector3d ab = b - a, ac = c - a, normal = ab.cross(ac);
-  const double squared = normal.squaredNorm();  // (height over the longest side times that side)^2
+  const double area2 = normal.squaredNorm();  // (height over the longest side times that side)^2
   const double wa = normal.dot(b.cross(c)), wb = normal.dot(c.cross(a)), wc = normal.dot(a.cross(b));
-  SimplexFace best{};
-  if (squared > 0 && wa > 0 && wb > 0 && wc > 0) {
+  bool allEdges = !(area2 > 0);
+  if (!allEdges && wa > 0 && wb > 0 && wc > 0) {
     const double sum = wa + wb + wc, ta = wa / sum, tb = wb / sum, tc = wc / sum;
-    const Eigen::Vector3d point = ta * a + tb * b + tc * c, foot = (normal.dot(a) / squared) * normal;
-    const double longest = std::max({ab.squaredNorm(), ac.squaredNorm(), (c - b).squaredNorm()});
-    best = {{i, j, k}, {ta, tb, tc}, 3, point, point, point.squaredNorm()};
-    if (squared >
-        longest * best.squared) {  // higher than far: the normal is better known than the way to the point
-      best.direction = foot;
-      return best;
+    const Eigen::Vector3d point = ta * a + tb * b + tc * c;
+    const double squared = point.squaredNorm(),
+                 longest = std::max({ab.squaredNorm(), ac.squaredNorm(), (c - b).squaredNorm()});
+    // Higher than far: the normal is better known than the way to the point.
+    const bool isHigh = area2 > longest * squared;
+    if (squared < best.squared) {
+      best = {{i, j, k}, {ta, tb, tc}, 3, point, point, squared};
+      if (isHigh) best.direction = (normal.dot(a) / area2) * normal;
     }
+    if (isHigh) return;
+    allEdges = true;
   }
   // The origin projects outside, or rounding of the corners may hide that it does: the best of the edges that
   // it may lie beyond.
-  const bool any = best.size > 0 || !(squared > 0);
-  if (any || wc <= 0) best = closer(best, nearestOnEdge(s, i, j));
-  if (any || wa <= 0) best = closer(best, nearestOnEdge(s, j, k));
-  if (any || wb <= 0) best = closer(best, nearestOnEdge(s, k, i));
-  return best;
+  if (allEdges || wc <= 0) offerEdge(s, i, j, best);
+  if (allEdges || wa <= 0) offerEdge(s, j, k, best);
+  if (allEdges || wb <= 0) offerEdge(s, k, i, best);
 }
 
 /// Six times the signed volume of the tetrahedron from the origin over a triangle.
@@ -135,10 +137,10 @@ inline bool nearestOnTetrahedron(const SimplexPoints& s, SimplexFace& best, std:
   // Only faces that the origin lies beyond can contain the point. If the volume is only rounding, all can.
   const double slack = kFlat * std::abs(sum), side = sum < 0 ? -1 : 1;
   const bool flat = !(std::abs(sum) > kFlat * (std::abs(va) + std::abs(vb) + std::abs(vc) + std::abs(vd)));
-  if (flat || side * va <= slack) best = closer(best, nearestOnTriangle(s, 1, 2, 3));
-  if (flat || side * vb <= slack) best = closer(best, nearestOnTriangle(s, 0, 2, 3));
-  if (flat || side * vc <= slack) best = closer(best, nearestOnTriangle(s, 0, 1, 3));
-  if (flat || side * vd <= slack) best = closer(best, nearestOnTriangle(s, 0, 1, 2));
+  if (flat || side * va <= slack) offerTriangle(s, 1, 2, 3, best);
+  if (flat || side * vb <= slack) offerTriangle(s, 0, 2, 3, best);
+  if (flat || side * vc <= slack) offerTriangle(s, 0, 1, 3, best);
+  if (flat || side * vd <= slack) offerTriangle(s, 0, 1, 2, best);
   return true;
 }
 
@@ -153,13 +155,13 @@ NearestPoint reduceToNearest(const Simplex<Corner>& simplex, Simplex<Corner>& re
   simplex_face::SimplexFace best{};
   switch (simplex.size) {
     case 1:
-      best = simplex_face::nearestOnCorner(s, 0);
+      simplex_face::offerCorner(s, 0, best);
       break;
     case 2:
-      best = simplex_face::nearestOnEdge(s, 0, 1);
+      simplex_face::offerEdge(s, 0, 1, best);
       break;
     case 3:
-      best = simplex_face::nearestOnTriangle(s, 0, 1, 2);
+      simplex_face::offerTriangle(s, 0, 1, 2, best);
       break;
     default: {
       std::array<double, 4> weight;

@@ -136,6 +136,16 @@ std::optional<StartNormal> normalBetween(ShapeQuery& q, const StartNormal& start
   return StartNormal{found.n, core.patch};
 }
 
+/// Whether to look for a single point of the shape that decides the depth. A small shape nearly always has
+/// one and a segment often, other shapes of the volume's size seldom. Each point that is tried needs a pass
+/// over all faces.
+bool isPointLikely(const ShapeQuery& q) {
+  constexpr double kSmall = 0.5;  // of the volume's inner radius: half of these shapes have such a point
+  constexpr int kFew = 64;        // faces: up to here a pass costs next to nothing
+  return q.shape.reach <= kSmall * q.body.innerRadius() || q.body.faceCount() <= kFew ||
+         q.shape.kind == ShapeKind::segment;
+}
+
 Solution solve(ShapeQuery& q, const StartNormal& start) {
   constexpr double kNone = kInfinity;
   constexpr int kTries = 12;       // one to five are usual; bodies that overlap take all of them
@@ -154,7 +164,8 @@ Solution solve(ShapeQuery& q, const StartNormal& start) {
     if (walkShapeFeatures(q, *between, kMoreTries, found) == WalkEnd::nearest)
       return {found, DistanceStatus::exact, kNone};
   } else {
-    if (const auto deep = overlapOfPoint(q, start)) return deepSolution(*deep);
+    if (isPointLikely(q))
+      if (const auto deep = overlapOfPoint(q, start)) return deepSolution(*deep);
     if (const auto deep = overlapOfCones(q)) return deepSolution(*deep);
     const LeastOverlap deep = leastOverlap(q, start);
     if (overlap || deep.at.gap < -kBeyond * q.rounding.across) return deepSolution(deep);

@@ -96,6 +96,7 @@ class Queries {
     });
     count("shapes_contact", touching, contact(cylinder, *ball));
     count("shape_contact", touching, contact(smoothBox, *box));
+    count("fine_shape_contact", touching, contact(first, cylinder));
   }
 
  private:
