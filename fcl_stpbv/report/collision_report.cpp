@@ -70,15 +70,41 @@ PairReport said(const PairEntry& entry, const CollisionReport& report, const Ski
   pair.reason = reasonText(entry.reason);
   if (srdf && !entry.obstacle) pair.srdfReason = srdf->of(pair.link1, pair.link2);
   pair.checked = isChecked(entry, report, srdf);
-  const bool explained = entry.reason == PairReason::adjacent || entry.reason == PairReason::rigid ||
-                         entry.reason == PairReason::neverSampled || entry.reason == PairReason::neverProven;
-  pair.contradictsSrdf = (pair.srdfReason == "Never" || pair.srdfReason == "Adjacent") && !explained;
   pair.minDistance = entry.minDistance;
   pair.probabilityBound = entry.probabilityBound();
   pair.security = entry.security;
   pair.influence = entry.influence;
   pair.closest = entry.closest;
   return pair;
+}
+
+bool isWithinLimits(const Eigen::VectorXd& q, const Kinematics& kinematics) {
+  return (kinematics.lower().array() <= q.array() && q.array() <= kinematics.upper().array()).all();
+}
+
+// Whether the SRDF leaves out as never or adjacent what collides, by the search or in the configuration of
+// the measured `pair`.
+bool contradictsSrdf(PairReason reason, const PairReport& pair) {
+  if (pair.srdfReason != "Never" && pair.srdfReason != "Adjacent") return false;
+  if (reason == PairReason::adjacent || reason == PairReason::rigid) return false;
+  const bool never = reason == PairReason::neverSampled || reason == PairReason::neverProven;
+  return pair.colliding || !never;
+}
+
+// Compares what was said with the distance that is measured now. A posture or a motion may show a collision
+// that the search missed.
+void judge(double margin, const Kinematics& kinematics, PairEntry& entry, PairReport& pair) {
+  pair.colliding |= pair.answer.distance <= margin;
+  if (pair.answer.distance < pair.minDistance) {
+    pair.minDistance = pair.answer.distance;
+    pair.closest = pair.configuration;
+  }
+  if (pair.colliding && entry.reason == PairReason::neverSampled &&
+      isWithinLimits(pair.configuration, kinematics)) {
+    entry.reason = PairReason::sometimes;
+    pair.reason = reasonText(entry.reason);
+  }
+  pair.contradictsSrdf = contradictsSrdf(entry.reason, pair);
 }
 
 // Measures the meshes if the volumes meet, or if they are closer than the amounts by which they exceed their
@@ -128,17 +154,14 @@ void examine(const ReportRequest& request, const PairListOptions& search, const 
     for (PairReport& pair : report.pairs) pair.configuration = postures.asked.value_or(pair.closest);
   else
     followPairs(postures.trajectory, request.trajectory, report);
-  for (PairReport& pair : report.pairs) {
+  for (std::size_t i = 0; i < report.pairs.size(); ++i) {
+    PairReport& pair = report.pairs[i];
     const std::vector<CheckedPair> bodies = bodiesOf(*report.geometry, pair.links);
     measurePair(report, bodies, pair);
     if (pair.answer.status == DistanceStatus::invalid)  // without an answer the pair is not known to be clear
       throw Error(report.robot->path + ": the distance of " + pair.link1 + " and " + pair.link2 +
                   " cannot be computed; look for numbers out of all proportion");
-    pair.colliding |= pair.answer.distance <= search.margin;
-    if (pair.answer.distance < pair.minDistance) {
-      pair.minDistance = pair.answer.distance;
-      pair.closest = pair.configuration;
-    }
+    judge(search.margin, *report.kinematics, report.list[i], pair);
     if (const auto known = kept.find(pair.links); known != kept.end()) {
       pair.meshDistance = known->second.meshDistance;
       pair.cause = known->second.cause;

@@ -37,8 +37,9 @@ struct ReportRequest {
 struct PairReport {
   LinkPair links;
   std::string link1, link2;  ///< names of the links; link2 may be the name of an obstacle
-  std::string reason;        ///< reason that the search gives
-  std::string srdfReason;    ///< reason that the SRDF gives, "" if it gives none
+  /// Reason that the search gives; "sometimes" if only `configuration` shows a collision within the limits.
+  std::string reason;
+  std::string srdfReason;  ///< reason that the SRDF gives, "" if it gives none
   bool checked = true;  ///< false if the SRDF leaves the pair of links out, or, without an SRDF, the search
   DistanceAnswer answer;
   /// The distance is not above the requested margin.
@@ -99,7 +100,7 @@ struct CollisionReport {
   /// distance.
   std::vector<PairReport> pairs;
   bool pairsOfBodies = false;   ///< pairs name bodies instead of links
-  std::vector<PairEntry> list;  ///< result of the search
+  std::vector<PairEntry> list;  ///< result of the search, with the reasons of `pairs`
   detail::NeutralPosture neutral;
   /// "" if each pair is in its own closest configuration.
   std::string pose;

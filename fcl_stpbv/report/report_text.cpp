@@ -160,8 +160,10 @@ std::string contradictions(const CollisionReport& report, std::size_t top) {
   std::size_t count = 0;
   for (const PairReport& pair : report.pairs) {
     if (!pair.contradictsSrdf || count++ >= top) continue;
+    const bool never = pair.reason == reasonText(PairReason::neverSampled) ||
+                       pair.reason == reasonText(PairReason::neverProven);
     text += "\nThe SRDF leaves out " + printable(pair.link1 + " - " + pair.link2) + " as " +
-            printable(pair.srdfReason) + "; found: " + pair.reason +
+            printable(pair.srdfReason) + "; found: " + pair.reason + (never ? " within the limits" : "") +
             (pair.cause.empty() ? "" : ", " + pair.cause) + formatted(", %.3f mm at", pair.minDistance * kMm);
     for (const auto& [joint, slope] : pair.gradient) {
       const auto& names = report.kinematics->names();

@@ -82,6 +82,26 @@ class Postures(ToolCase):
         os.remove("home")
         self.assertAlmostEqual(self.report("--srdf", srdf, "--pose", "home", status=0)["pairs"][0]["distance"], 0.3, delta=1e-6)
 
+    def test_a_posture_in_collision_contradicts_a_never_of_the_search_and_of_the_srdf(self):
+        # The balls touch at l = 0.3 only. No descent ends there to rounding, and a proof has no end.
+        self.urdf = self.put("passes.urdf", '<robot name="two">' + link("base", '<box size="1 1 1"/>') + link("left", BALL) + link("right", BALL) +
+                             joint("l", "base", "left", "prismatic", "0 5 0", "0 1 0", (0, 1)) + joint("r", "base", "right", origin="0.2 5.3 0") + "</robot>")
+        never = self.srdf('<disable_collisions link1="left" link2="right" reason="Never"/>')
+
+        def pair(*arguments, status):
+            return next(p for p in self.report(*arguments, status=status)["pairs"] if {p["link1"], p["link2"]} == {"left", "right"})
+        pose = self.put("pose.json", '{"l": 0.3}')
+        self.assertEqual(pair("--srdf", never, status=0)["reason"], "never (sampled)")
+        self.assertEqual(pair("--srdf", never, "--pose", pose, status=0)["reason"], "sometimes")
+        self.assertEqual(pair("--pose", pose, status=1)["reason"], "sometimes")
+        command = PROGRAM, self.urdf, "--no-cache", "--samples", "100", "--pose"
+        self.assertIn("leaves out left - right as Never; found: sometimes, meshes meet, 0.000 mm at l=0.3000",
+                      self.run_command(*command, pose, "--srdf", never).stdout)
+        self.assertNotIn('"Never"', self.run_command(*command, pose, "--format", "srdf").stdout)
+        # A collision beyond the limits leaves the search as it is.
+        told = self.run_command(*command, self.put("beyond.json", '{"l": 0.3, "r": 3}'), "--srdf", never).stdout
+        self.assertIn("leaves out left - right as Never; found: never (sampled) within the limits, meshes meet, 0.000 mm at l=0.3000", told)
+
     def test_what_leaves_the_limits_is_told(self):
         pose = self.put("pose.json", '{"l": -90, "r": -2}')
         warnings = self.report("--pose", pose, status=0)["warnings"]
