@@ -162,7 +162,9 @@ void examine(const ReportRequest& request, const PairListOptions& search, const 
       throw Error(report.robot->path + ": the distance of " + pair.link1 + " and " + pair.link2 +
                   " cannot be computed; look for numbers out of all proportion");
     judge(search.margin, *report.kinematics, report.list[i], pair);
-    if (const auto known = kept.find(pair.links); known != kept.end()) {
+    const auto known = kept.find(pair.links);
+    if (known != kept.end() && known->second.colliding == pair.colliding &&
+        known->second.configuration == pair.configuration) {
       pair.meshDistance = known->second.meshDistance;
       pair.cause = known->second.cause;
     } else {

@@ -773,6 +773,18 @@ class Report(ToolCase):
         for wrong in ("1", "65", "some"):
             self.assertEqual(self.run_tool(*robot, "--parts", wrong).returncode, 2)
 
+    def test_a_contact_behind_one_that_parts_clear_has_its_cause(self):
+        # A box through the gap of a gate, then two balls that touch less deep than the precision of a closest approach.
+        ball = '<sphere radius="0.05"/>'
+        robot = self.robot(link("gate", self.boxes("gate.obj", 0.1, (-0.3, 0, 0), (0.3, 0, 0))) + link("box", self.boxes("box.obj", 0.05, (0, 0, 0)))
+                           + link("still", ball) + link("moving", ball) + joint("slide", "gate", "box", "prismatic", axis="0 0 1")
+                           + joint("turn", "gate", "still", origin="0 9 0") + joint("near", "gate", "moving", "prismatic", "1 9.06 0", "-1 0 0", (-2, 2)))
+        done = self.run_tool(robot, "--srdf", self.put("none.srdf", '<robot name="small"/>'), "-r", "0.01", "--samples", "50", "--primitives", "flat",
+                             "--parts", "auto", "--trajectory", self.put("way.csv", "slide,near\n1,0\n-1,0\n-1,0.92000000001\n-1,0\n"), "--format", "json")
+        report = json.loads(done.stdout)
+        self.assertEqual({report["trajectory"]["contact"][link] for link in ("link1", "link2")}, {"still", "moving"})
+        self.assertEqual(report["summary"]["causes"], {"meshes meet": 1})
+
     def test_parts_come_from_the_cache_and_do_not_depend_on_the_number_of_threads(self):
         robot = (*self.slides_through_a_gate(), "--parts", "4", "--format", "json")
         kept = self.path("cache/fcl_stpbv")
