@@ -28,9 +28,10 @@ void placeOnTrajectory(const TrajectoryReport& trajectory, std::size_t first, st
   const auto begin = trajectory.closest.begin();
   const auto nearest = std::min_element(
       begin + from, begin + to, [](const Approach& a, const Approach& b) { return a.distance < b.distance; });
-  pair.time = touches && !(nearest->distance < trajectory.stop.answer.distance) ? trajectory.stop.until
-                                                                                : nearest->time;
-  pair.configuration = trajectory.at(pair.time);
+  const bool atStop = touches && !(nearest->distance < trajectory.stop.answer.distance);
+  pair.time = atStop ? trajectory.stop.until : nearest->time;
+  pair.configuration =
+      atStop ? trajectory.at(pair.time) : trajectory.closestAt[static_cast<std::size_t>(nearest - begin)];
   pair.colliding = touches;
 }
 

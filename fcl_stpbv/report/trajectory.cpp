@@ -134,7 +134,10 @@ void findClosest(MotionCheck& check, TrajectoryReport& report) {
   }
   for (Approach& approach : report.closest) {
     const double segment = std::min(std::floor(approach.time), static_cast<double>(t.points.size() - 2));
-    approach.time = timeAt(t, static_cast<std::size_t>(segment), approach.time - segment);
+    const double part = approach.time - segment;
+    const auto i = static_cast<std::size_t>(segment);
+    approach.time = timeAt(t, i, part);
+    report.closestAt.push_back(t.points[i] + part * (t.points[i + 1] - t.points[i]));
   }
 }
 

@@ -31,6 +31,8 @@ struct TrajectoryReport {
   /// For each pair of bodies, whether it is proven free all the way, whatever the result for the others.
   std::vector<bool> free;
   std::vector<Approach> closest;  ///< for each pair of bodies, with its time on the trajectory
+  /// The configurations of `closest`. In a short segment late in a trajectory, its time may be too coarse.
+  std::vector<Eigen::VectorXd> closestAt;
   /// Precision (m) to which every `closest` is that of the whole trajectory if `closestProven` is true. It is
   /// false if a pair was too deep in another one.
   static constexpr double kPrecision = 1e-6;

@@ -192,6 +192,19 @@ class Report(ToolCase):
             self.assertEqual(report["summary"]["colliding"], 0 if free else 1, deepest)
             self.assertIn("proven free" if free else "1 of them in collision", self.follow("way.csv", f"slide\n0\n{deepest}\n0\n").stdout)
 
+    def test_a_contact_too_short_for_its_time_is_not_free(self):
+        # One ball meets another one in the first half. Two more pass through each other in the last nanosecond of a million seconds.
+        ball = '<sphere radius="0.05"/>'
+        robot = self.robot(link("root") + link("still", ball) + link("moving", ball) + link("other", ball) + link("first", ball)
+                           + joint("turn", "root", "still") + joint("slide", "root", "moving", "prismatic", "1 0.06 0", "-1 0 0", (-2, 2))
+                           + joint("spin", "root", "other", origin="0 9 0") + joint("meet", "root", "first", "prismatic", "1 9 0", "-1 0 0", (-2, 2)))
+        for end in (1.95, 2):
+            path = self.put("way.csv", f"time,slide,meet\n0,0,0\n500000,0,1\n999999,0,0\n999999.000000001,{end},0\n")
+            done = self.run_tool(robot, "--primitives", "flat", "--samples", "20", "--trajectory", path, "--format", "json")
+            pair = next(p for p in json.loads(done.stdout)["pairs"] if (p["link1"], p["link2"]) == ("still", "moving"))
+            self.assertEqual(pair["verdict"], "contact")
+            self.assertAlmostEqual(pair["distance"], -0.04, delta=1e-6)
+
     def test_the_levels_of_the_chart_stay_in_it_and_apart(self):
         for margin in ("0", "0.001", "-0.001", "0.9", "3", "-3"):
             page = self.follow("way.csv", "slide\n0\n2\n", "--margin", margin, "--format", "html").stdout
