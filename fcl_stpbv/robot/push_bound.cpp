@@ -214,17 +214,16 @@ double PushBound::together(const Vector3d& n, const BodySide& side, const Vector
     bool firstOfSlot = true;
     for (std::size_t l = 0; l < i; ++l) firstOfSlot &= !same(l);
     if (!firstOfSlot) continue;
-    double apart = 0, slope = 0, beyondSlope = 0;
+    double half = 0, apart = 0, slope = 0, beyondSlope = 0;
     for (std::size_t l = i; l < m; ++l) {
       if (!same(l)) continue;
       const OutwardJoint& o = side.joints[l];
       const double along = o.joint.slides ? n.dot(o.joint.axis) : turned_[l].dot(x - o.joint.origin);
+      half = std::max(half, o.joint.half / std::abs(o.joint.rate));  // too small where the rate is subnormal
       slope += o.outwardRate * along;
       apart += (o.joint.slides ? o.joint.half : o.sine) * std::abs(along);
       if (!o.joint.slides) beyondSlope += (o.joint.half - std::sin(o.joint.half)) * std::abs(along);
     }
-    const OutwardJoint& o = side.joints[i];
-    const double half = o.joint.half / std::abs(o.joint.rate);
     saved += std::max(0.0, apart - (half * std::abs(slope) + beyondSlope));
   }
   return saved;

@@ -96,6 +96,24 @@ TEST_CASE("bounds hold where a joint follows another one with the multiplier 0")
   }
 }
 
+TEST_CASE("a bound holds where a joint follows another one by a multiplier of a few subnormal units") {
+  // `c` turns towards `a`. The joint between the two stands still, but its share of the range is rounded.
+  const ProofScene scene = proofSceneOf(
+      robot(link("a", "<sphere radius=\"3\"/>") + link("b") +
+            "<link name=\"c\"><collision><origin xyz=\"1 0 0\"/><geometry><sphere radius=\"0.1\"/></geometry>"
+            "</collision></link>" +
+            joint("follow", "revolute", "a", "b",
+                  "<origin xyz=\"-0.77 -3.8 0\"/><axis xyz=\"0 0 1\"/><mimic joint=\"turn\" "
+                  "multiplier=\"1e-323\"/>") +
+            joint("turn", "revolute", "b", "c", "<axis xyz=\"0 0 1\"/>")));
+  constexpr double kTurn = 0.7;
+  const double least = std::hypot(std::cos(kTurn) - 0.77, std::sin(kTurn) - 3.8) - 3.1;
+  const JointBox box{Eigen::VectorXd::Constant(1, -kTurn), Eigen::VectorXd::Constant(1, kTurn)};
+  const double bound = distanceBound(scene, pairNamed(scene, "a", "c"), box);
+  CHECK(bound <= least);
+  CHECK(bound > 0.5 * least);
+}
+
 TEST_CASE("pairs far along a robot are settled with fewer boxes, as each takes longer, and stay checked") {
   const ProofScene scene = snake(49, "<sphere radius=\"0.05\"/>", 48);
   PairListOptions options;
