@@ -11,8 +11,9 @@
 namespace fcl_stpbv::detail {
 namespace {
 
-// Least height of a body's surface over its mesh.
-double marginOf(const Body& body) { return body.volume && !body.file.empty() ? body.volume->radii().r : 0; }
+// Least height of the surface of a body, or of its parts, over its mesh. The larger r of a reduced volume
+// covers vertices that were left out, so it is no such height.
+double marginOf(const Body& body) { return body.volume && !body.file.empty() ? body.radii.r : 0; }
 
 }  // namespace
 

@@ -17,7 +17,7 @@ namespace fcl_stpbv {
 
 /// A requirement on the model: in one configuration, two links, or a link and an obstacle, must be farther
 /// apart than `clearance`. If the distance of the exact shapes is at most `clearance` plus the r of both
-/// volumes, no model can meet it, and none is refined for it.
+/// bodies (Body::radii), no model can meet it, and none is refined for it.
 struct SceneNeed {
   LinkPair pair;         ///< the two links, or the link and the obstacle
   Eigen::VectorXd q;     ///< the configuration (rad, m)

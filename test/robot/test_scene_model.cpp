@@ -224,6 +224,25 @@ TEST_CASE("a clearance that the meshes themselves do not have is told before par
   CHECK(std::filesystem::exists(options.cacheFolder));
 }
 
+TEST_CASE("the parts of volumes with few vertices and a large r are used where they are needed") {
+  const Workshop& workshop = workshopOfAll();
+  GeometryOptions coarse;
+  coarse.radii = {0.001, 3};
+  coarse.overCoverBudget = 0.05;
+  coarse.cacheFolder = workshop.options.cacheFolder;
+  const auto level = std::make_shared<const RobotGeometry>(loadGeometry(*workshop.robot, coarse));
+  const VectorXd q = workshop.at(0.11, 0.11);
+  double largest = 0;
+  for (const Body& body : level->bodies) largest = std::max(largest, body.volume->radii().r);
+  const double clearance = 0.03;  // the meshes are farther apart, but not by the large r
+  REQUIRE(workshop.meshDistance(q) > clearance + 2 * coarse.radii.r);
+  REQUIRE(workshop.meshDistance(q) < clearance + largest);
+  const SceneModel model =
+      modelForScene(workshop.kinematics, {level}, {}, {{workshop.cupAndL, q, clearance}}, workshop.options);
+  CHECK(model.unmet.empty());
+  CHECK(workshop.distance(model.geometry, workshop.cupAndL, q) > clearance);
+}
+
 TEST_CASE("obstacles make needs too; the order of needs and the number of threads change nothing") {
   const Workshop& workshop = workshopOfAll();
   const auto ball = std::make_shared<fcl::Sphered>(0.02);
