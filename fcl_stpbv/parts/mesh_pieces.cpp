@@ -9,6 +9,7 @@
 #include <array>
 #include <cstddef>
 #include <numeric>
+#include <set>
 #include <tuple>
 #include <utility>
 
@@ -119,8 +120,9 @@ class Taker {
         if (triangle[k] < 0 || at(triangle[k]) >= number.size())
           throw Error("the mesh has a triangle of a vertex that does not exist; export it again");
         corners[k] = number[at(triangle[k])];
-        used[at(corners[k])] = 1;
       }
+      if (corners[0] == corners[1] && corners[1] == corners[2]) continue;  // only its vertex counts
+      for (const int corner : corners) used[at(corner)] = 1;
       (isLine(corners) ? lines_ : out_.triangles).push_back(corners);
     }
     for (int i = 0; at(i) < used.size(); ++i)
@@ -222,13 +224,14 @@ class Taker {
     }
   }
 
-  // A triangle with two equal corners is dropped if it is an edge of another triangle. Otherwise it becomes a
-  // piece of its own, and so does a point that no triangle uses. A point counts as closed, because it has no
-  // inside.
+  // A triangle with two equal corners is dropped if it is an edge of another triangle, or a copy. Otherwise
+  // it becomes a piece of its own, and so does a point that no triangle uses. A point counts as closed,
+  // because it has no inside.
   void addLines() {
+    std::set<std::pair<int, int>> known;
     for (const Corners& line : lines_) {
       const auto [low, high] = std::minmax_element(line.begin(), line.end());
-      if (edges_.has(*low, *high)) continue;
+      if (edges_.has(*low, *high) || !known.emplace(*low, *high).second) continue;
       out_.triangles.push_back(line);
       out_.piece.push_back(out_.pieces());
       out_.closed.push_back(*low == *high);

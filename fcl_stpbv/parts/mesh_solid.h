@@ -21,8 +21,8 @@ namespace fcl_stpbv {
 struct MeshPieces {
   std::vector<Eigen::Vector3d> vertices;  ///< each point once (m)
   /// Triangles after orientation, as indices into `vertices`. Copies are removed, and so are degenerate
-  /// triangles that are just an edge of another one. Sheets keep both sides. A vertex that no triangle used
-  /// becomes a triangle with three equal corners.
+  /// triangles that are just an edge or a corner of another one. Sheets keep both sides. A vertex that no
+  /// other triangle used becomes a triangle with three equal corners.
   std::vector<std::array<int, 3>> triangles;
   std::vector<int> piece;    ///< index of the piece of each triangle
   std::vector<char> closed;  ///< whether each piece is closed

@@ -28,7 +28,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // Change it when the same mesh gives other volumes, radii, parts or pair lists than before.
-constexpr std::string_view kVersion = "fcl_stpbv volume cache 21\n";
+constexpr std::string_view kVersion = "fcl_stpbv volume cache 22\n";
 
 // The name of an entry's file without its extension: the digest of the content that the entry was built from.
 std::string keyOf(const std::string& path) { return fs::path(path).stem().string(); }

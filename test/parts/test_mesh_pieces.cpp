@@ -142,3 +142,24 @@ TEST_CASE("points of no triangle are pieces that enclose nothing, and parts cove
     CHECK(covered);
   }
 }
+
+TEST_CASE(
+    "triangles that are only a corner or an edge of others are no pieces, and copies of lines are one") {
+  for (TriangleMesh mesh : {together({turned(wall(0)), tube(0), wall(1)}), tube(0)}) {
+    const MeshPieces sound = meshPieces(mesh);
+    const int far = static_cast<int>(mesh.vertices.size());
+    for (int i = 0; i < far; ++i) mesh.triangles.push_back({i, i, i});
+    mesh.triangles.push_back({0, 1, 1});
+    MeshPieces found = meshPieces(mesh);
+    CHECK(found.triangles == sound.triangles);
+    CHECK(found.pieces() == sound.pieces());
+    CHECK(found.closedPieces() == sound.closedPieces());
+    mesh.vertices.emplace_back(3, 0.5, 0.5);
+    for (const std::array<int, 3>& line :
+         {std::array{0, far, far}, std::array{far, 0, 0}, std::array{far, far, 0}, std::array{far, far, far}})
+      mesh.triangles.push_back(line);
+    found = meshPieces(mesh);
+    CHECK(found.pieces() == sound.pieces() + 1);
+    CHECK(found.closedPieces() == sound.closedPieces());
+  }
+}
