@@ -75,7 +75,7 @@ ordered_json inputsOf(const RobotConversion& conversion, std::vector<std::string
     inputs[what] = {{"file", path}, {"sha256", sha256(readText(path))}};
   };
   inputs["version"] = FCL_STPBV_VERSION;
-  inputs["writer"] = 6;  // changed when the same inputs give other files
+  inputs["writer"] = 7;  // changed when the same inputs give other files
   add("urdf", files.urdf);
   // The names of visual meshes and textures are written relative to the new folder, so the key changes if it
   // is moved.
