@@ -207,16 +207,20 @@ Plan plan(const std::vector<std::string>& inputs, const std::string& output, con
   }
   InputFiles files(inputs);
   for (const Job& job : plan.jobs) {
-    checkTarget("-o", job.output, files, force);
-    checkVolumeName(job.output, options.preview);
+    if (!options.parts) {
+      checkTarget("-o", job.output, files, force);
+      checkVolumeName(job.output, options.preview);
+    }
     for (int part = 0; options.parts && part < options.parts->most; ++part) {
       files.spare("-o", nameOfPart(job.output, part));
       checkVolumeName(nameOfPart(job.output, part), options.preview);
     }
   }
 
+  // The first file that is written for a job.
+  const auto first = [&](const Job& job) { return options.parts ? nameOfPart(job.output, 0) : job.output; };
   std::vector<std::string> named;
-  if (plan.folder.empty()) named.push_back(plan.jobs[0].output);
+  if (plan.folder.empty()) named.push_back(first(plan.jobs[0]));
   if (!options.preview.empty()) {
     checkTarget("--preview", options.preview, files, force);
     named.push_back(options.preview);
@@ -225,7 +229,7 @@ Plan plan(const std::vector<std::string>& inputs, const std::string& output, con
     requireWritable(name, name);
   }
   if (isFolder(plan.folder))
-    for (const Job& job : plan.jobs) requireWritable(job.output, job.output);
+    for (const Job& job : plan.jobs) requireWritable(first(job), first(job));
   return plan;
 }
 

@@ -323,6 +323,13 @@ class MeshToStpbv(ToolCase):
         self.put("two_2.stpbv", "old")
         done = self.run_tool("two.obj", "-o", "two.stpbv", "--parts", "2", "--force")
         self.assertIn("two_2.stpbv: is from an earlier run", done.stderr)
+        self.put("whole.stpbv", "old")
+        os.mkdir(self.path("out"))
+        self.put("out/two.stpbv", "old")
+        for output in ("whole.stpbv", "out"):  # the name without a number is not written
+            self.run_tool("two.obj", "-o", output, "--parts", "2")
+        for name in ("whole.stpbv", "out/two.stpbv"):
+            self.assertEqual(read(self.path(name)), b"old")
 
     def test_parts_cover_points_that_belong_to_no_triangle(self):
         self.put("loose.ply", "ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\nproperty float y\nproperty float z\nelement face 1\n"
