@@ -258,3 +258,18 @@ TEST_CASE("a mesh without a known ending is checked in the format in which assim
     checkRefused(file, {{"# a mesh\nv 0 0 0\nv 1 0 0 7 7\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", ":3: "}});
   }
 }
+
+TEST_CASE("vertices that no element uses count in OFF and PLY, not in OBJ") {
+  const auto points = [](const std::string& text) { return parseMesh(text, "-").vertices.size(); };
+  const std::string
+      vertices = "0 0 0\n1 0 0\n0 1 0\n5 5 5\n",
+      ply =
+          "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
+          "property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n";
+  CHECK(points("OFF\n4 1 3\n" + vertices + "3 0 1 2\n") == 4);
+  CHECK(points(ply + vertices + "3 0 1 2\n") == 4);
+  const std::string obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 5 5 5\nf 1 2 3\n";
+  CHECK(points(obj) == 3);
+  CHECK(points(obj + "p 4\n") == 4);
+  CHECK(points(obj + "l 1 4\n") == 4);
+}
