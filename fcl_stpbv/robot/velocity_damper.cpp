@@ -219,15 +219,17 @@ void VelocityDamper::update(const Eigen::Ref<const Eigen::VectorXd>& q,
   }
   for (int row = 0; row < constraints_.rows(); ++row) {
     const bool inside = rates_.d[row] < dampers_[at(row)].influence;
+    if (inside) near_.push_back(row);
+    b_[row] = kInfinity;
+    if (!(rates_.d[row] > std::numeric_limits<double>::lowest()))
+      continue;  // no value, so it has not entered
     const bool entered = inside && !inside_[at(row)];
     if (entered) enter(row);
     if (!inside && inside_[at(row)]) rest(row);
     inside_[at(row)] = inside;
     double b = inside ? bound(row) : -kInfinity;
     if (entered) b = std::max(b, brake(row));
-    const bool hasValue = rates_.d[row] > std::numeric_limits<double>::lowest();
-    b_[row] = hasValue && !std::isnan(b) ? b : kInfinity;
-    if (inside) near_.push_back(row);
+    if (!std::isnan(b)) b_[row] = b;
   }
 }
 

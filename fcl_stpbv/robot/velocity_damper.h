@@ -60,8 +60,8 @@ class VelocityDamper {
 
   /// Computes A and b at q, for the velocity qd. If q or qd is not finite, nothing is known: all rows are
   /// near(), with A = 0 and b = infinity, which no x can fulfil. A row without a value (a pair without a
-  /// distance, a smooth constraint whose value is NaN) is near() too, with A = 0 and b = infinity. @throws
-  /// Error for a q or qd of a wrong size.
+  /// distance, a smooth constraint whose value is NaN) is near() too, with A = 0 and b = infinity. Neither
+  /// changes which pairs are within their influence. @throws Error for a q or qd of a wrong size.
   void update(const Eigen::Ref<const Eigen::VectorXd>& q, const Eigen::Ref<const Eigen::VectorXd>& qd);
 
   /// The matrix A, rows() x columns() of the constraints.

@@ -293,6 +293,39 @@ TEST_CASE("a smooth constraint whose value is no number is near, with a row that
   }
 }
 
+TEST_CASE("a row enters when it has a value, not before") {
+  const auto model = std::make_shared<const RobotModel>(
+      parseUrdf(robot(link("base") + link("b") + joint("x", "prismatic", "base", "b", "", 9)), "rail.urdf"));
+  SmoothConstraint rest;  // of the way to 1, known from 0 on
+  rest.name = "rest";
+  rest.coordinates = {0};
+  rest.value = [](const Eigen::Ref<const VectorXd>& q, double* gradient) {
+    if (gradient) gradient[0] = -1;
+    return q[0] < 0 ? std::nan("") : 1 - q[0];
+  };
+  ConstraintOptions options;
+  options.smooth = {rest};
+  CollisionConstraints constraints(std::make_shared<const Kinematics>(model),
+                                   std::make_shared<const RobotGeometry>(), {}, options);
+  const VectorXd unknown = VectorXd::Constant(1, -1), near = VectorXd::Constant(1, 0.97);
+  const VectorXd fast = VectorXd::Constant(1, 2);
+  for (const DamperLevel level : {DamperLevel::velocity, DamperLevel::acceleration, DamperLevel::barrier}) {
+    DamperOptions how;
+    how.level = level;
+    VelocityDamper usual(constraints, how), late(constraints, how);
+    usual.update(near, fast);
+    late.update(unknown, fast);
+    late.update(near, fast);
+    CHECK(late.b()[0] == usual.b()[0]);
+    CHECK(usual.b()[0] <= (level == DamperLevel::velocity ? -2 : 0));  // it does not act as it enters
+    // What has entered keeps its gains while nothing is known.
+    late.update(unknown, fast);
+    late.update(near, 0 * fast);
+    CHECK(late.damping(0) == usual.damping(0));
+    CHECK(late.barrierGain(0) == usual.barrierGain(0));
+  }
+}
+
 TEST_CASE("the acceleration's bound is a number: 0 where nothing changes, infinite where nothing bounds it") {
   const double none = std::numeric_limits<double>::infinity();
   CHECK(collisionAccelerationBound({}, 1, 0) == 0);  // no active row, and therefore no eigenvalue
