@@ -119,8 +119,8 @@ std::vector<CheckedPair> obstaclePairs(const RobotModel& robot, const RobotGeome
 /// It is a greedy choice. First it covers the bodies with the smallest over-cover per pair that they make
 /// smooth. Then it removes covers that are no longer needed, the largest over-cover first. The result is
 /// deterministic, but may have a few more covers than necessary. `scene` contains the bodies that `pairs`
-/// name as obstacles, in their order; null without obstacles. @throws Error for a pair of bodies that do not
-/// exist, or a cover that cannot be built.
+/// name as obstacles, in their order; null without obstacles. @throws Error as requireBodies() does, and for
+/// a cover that cannot be built.
 void coverPrimitives(const std::vector<CheckedPair>& pairs, RobotGeometry& robot,
                      RobotGeometry* scene = nullptr);
 

@@ -6,7 +6,6 @@
 #include <limits>
 #include <numeric>
 
-#include "fcl_stpbv/error.h"
 #include "fcl_stpbv/error_place.h"
 #include "fcl_stpbv/numbers.h"
 #include "fcl_stpbv/robot/checked_pairs.h"
@@ -39,13 +38,10 @@ class Choice {
     const std::size_t bodies = robot.bodies.size();
     node_.assign(bodies + (scene ? scene->bodies.size() : 0), kSmooth);
     for (const CheckedPair& pair : pairs) {
-      const std::size_t other = static_cast<std::size_t>(pair.other) + (pair.obstacle ? bodies : 0);
-      if (static_cast<std::size_t>(pair.body) >= bodies || other >= node_.size())
-        throw Error("coverPrimitives: a pair names a body that does not exist");
-      const std::size_t a =
-          nodeOf(static_cast<std::size_t>(pair.body), robot.bodies[static_cast<std::size_t>(pair.body)]);
-      const std::size_t b =
-          nodeOf(other, (pair.obstacle ? *scene : robot).bodies[static_cast<std::size_t>(pair.other)]);
+      requireBodies(pair, robot, node_.size() - bodies, "coverPrimitives");
+      const std::size_t a = nodeOf(at(pair.body), robot.bodies[at(pair.body)]);
+      const std::size_t b = nodeOf(at(pair.other) + (pair.obstacle ? bodies : 0),
+                                   (pair.obstacle ? *scene : robot).bodies[at(pair.other)]);
       if (a == kSmooth || b == kSmooth) continue;
       flat_[a].others.push_back(b);
       flat_[b].others.push_back(a);

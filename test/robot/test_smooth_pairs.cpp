@@ -146,5 +146,10 @@ TEST_CASE("a pair with an obstacle is covered on the cheaper side, and flat mesh
   CHECK(covered(geometry).size() == 1);
   CHECK(covered(things).empty());
   CHECK(geometry.bodies[0].cover.max < 2e-4);  // 0.1 m long under a ball of 10 m
-  REQUIRE_THROWS(coverPrimitives({{0, 1}}, geometry));
+  for (const CheckedPair& none :
+       {CheckedPair{0, 1}, CheckedPair{-1, 0}, CheckedPair{0, 1, true}, CheckedPair{0, -1, true}})
+    for (RobotGeometry* around : {&things, static_cast<RobotGeometry*>(nullptr)})
+      CHECK_THROWS_WITH(coverPrimitives({none}, geometry, around),
+                        "coverPrimitives: a pair names a body or an obstacle that does not exist");
+  CHECK_THROWS_AS(coverPrimitives({{0, 0, true}}, geometry), Error);
 }
