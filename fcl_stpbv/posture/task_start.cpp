@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "fcl_stpbv/numbers.h"
+#include "fcl_stpbv/robot/joint_freedoms.h"
 #include "fcl_stpbv/robot/joint_names.h"
 #include "fcl_stpbv/robot/near_name.h"
 
@@ -18,9 +19,9 @@ std::vector<int> coordinatesNamed(const std::string& name, const Kinematics& kin
   const auto own = std::find(names.begin(), names.end(), name);
   if (own != names.end()) return {static_cast<int>(own - names.begin())};
   std::vector<int> found;
-  const int first = kinematics.coordinate(name);
-  for (int i = std::max(0, first); first >= 0 && i < kinematics.size(); ++i)
-    if (names[static_cast<std::size_t>(i)].compare(0, name.size() + 1, name + "/") == 0) found.push_back(i);
+  const int joint = kinematics.robot().joint(name), first = kinematics.coordinate(name);
+  for (int k = 0; first >= 0 && k < detail::freedoms(kinematics.robot().joints[detail::at(joint)].type); ++k)
+    found.push_back(first + k);
   return found;
 }
 

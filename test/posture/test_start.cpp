@@ -111,6 +111,14 @@ TEST_CASE("a planar base turns to any direction, from any start") {
     }
 }
 
+TEST_CASE("the weight of a joint is not that of another whose name begins with its own") {
+  const PostureScene scene =
+      bodiesOf(kCart + ball("tool") + joint("p/tool", "revolute", "cart", "tool", kHinge));
+  const PostureTask task = taskOf(R"({"base": "fixed", "cost": {"weights": {"p": 7}}, "placements": []})");
+  PostureSetup setup = setUpWithoutCollisions(task, scene);
+  CHECK(setup.problem->costCurvature() / 2 == (Eigen::VectorXd(5) << 7, 7, 7, 1, 1).finished());
+}
+
 TEST_CASE("every coordinate has the name that answers have") {
   const PostureScene scene = bodiesOf(kCart);
   const PostureTask task = taskOf(R"({"base": "floating", "start": {"base": {"position": [1, 2, 3]},
