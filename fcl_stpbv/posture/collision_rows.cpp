@@ -43,10 +43,4 @@ std::vector<Violation> nearerThan(double margin, const std::vector<CheckedPair>&
   return found;
 }
 
-void SmoothRow::evaluate(const Point& at, Eigen::Ref<Eigen::VectorXd> values,
-                         Eigen::Ref<RowMatrix> jacobian) {
-  values[0] = constraint_.value(at.x, gradient_.data());
-  for (std::size_t i = 0; i < gradient_.size(); ++i) jacobian(0, constraint_.coordinates[i]) = gradient_[i];
-}
-
 }  // namespace fcl_stpbv::detail

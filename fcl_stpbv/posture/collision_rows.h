@@ -47,20 +47,4 @@ std::vector<Violation> nearerThan(double margin, const std::vector<CheckedPair>&
                                   const PostureScene& scene, std::shared_ptr<const Kinematics> kinematics,
                                   const Eigen::VectorXd& q);
 
-/// A smooth function of the coordinates as an inequality constraint (>= 0).
-class SmoothRow : public PostureRows {
- public:
-  explicit SmoothRow(SmoothConstraint constraint)
-      : constraint_(std::move(constraint)), gradient_(constraint_.coordinates.size()) {}
-
-  Kind kind() const override { return Kind::atLeast; }
-  int size() const override { return 1; }
-  std::string name(int) const override { return constraint_.name; }
-  void evaluate(const Point& at, Eigen::Ref<Eigen::VectorXd> values, Eigen::Ref<RowMatrix> jacobian) override;
-
- private:
-  SmoothConstraint constraint_;
-  std::vector<double> gradient_;
-};
-
 }  // namespace fcl_stpbv::detail

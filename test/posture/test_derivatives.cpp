@@ -1,7 +1,10 @@
 // The Jacobian of every kind of constraint and the cost's gradient against central differences.
 #include <catch2/catch.hpp>
+#include <functional>
+#include <string>
+#include <tuple>
+#include <utility>
 
-#include "fcl_stpbv/posture/collision_rows.h"
 #include "fcl_stpbv/posture/task.h"
 #include "test/posture/scenes.h"
 #include "test/reference/shapes.h"
@@ -22,6 +25,27 @@ Eigen::Vector3d randomPoint(Random& random, double size) {
 Eigen::Isometry3d randomPose(Random& random, double size) {
   return pose(random.rotation(), randomPoint(random, size));
 }
+
+// A user's own constraint: a function of one coordinate, with its slope.
+class OwnRow : public PostureRows {
+ public:
+  using Function = std::function<std::pair<double, double>(double)>;
+  OwnRow(std::string name, int coordinate, Function function)
+      : name_(std::move(name)), coordinate_(coordinate), function_(std::move(function)) {}
+
+  Kind kind() const override { return Kind::atLeast; }
+  int size() const override { return 1; }
+  std::string name(int) const override { return name_; }
+  void evaluate(const Point& at, Eigen::Ref<Eigen::VectorXd> values,
+                Eigen::Ref<RowMatrix> jacobian) override {
+    std::tie(values[0], jacobian(0, coordinate_)) = function_(at.x[coordinate_]);
+  }
+
+ private:
+  std::string name_;
+  int coordinate_;
+  Function function_;
+};
 
 Eigen::VectorXd randomVariables(const PostureProblem& problem, Random& random) {
   Eigen::VectorXd x(problem.variables());
@@ -257,15 +281,10 @@ TEST_CASE("after a constraint threw, the problem does not take half of its value
   const auto kinematics = std::make_shared<const Kinematics>(hrp2Scene().robot, BaseMotion::fixed);
   const auto problem = problemOf(kinematics);
   bool broken = false;
-  SmoothConstraint touchy{"touchy",
-                          {0},
-                          [&broken](const auto& q, double* slope) {
-                            if (broken) throw Error("no value");
-                            if (slope) *slope = 2;
-                            return 2 * q[0] + 1;
-                          },
-                          {}};
-  problem->add(std::make_shared<SmoothRow>(touchy));
+  problem->add(std::make_shared<OwnRow>("touchy", 0, [&broken](double q) {
+    if (broken) throw Error("no value");
+    return std::pair(2 * q + 1, 2.0);
+  }));
   Eigen::VectorXd x = problem->variablesAt(kinematics->neutral());
   problem->evaluate(x);
   x[0] = 0.125;
@@ -280,14 +299,8 @@ TEST_CASE("a user's own constraint is a row like any other") {
   const auto kinematics = std::make_shared<const Kinematics>(hrp2Scene().robot, BaseMotion::floating);
   const auto problem = problemOf(kinematics);
   const int knee = kinematics->coordinate("LLEG_JOINT3");
-  SmoothConstraint bent{"knee bent",
-                        {knee},
-                        [knee](const auto& q, double* slope) {
-                          if (slope) *slope = 2 * q[knee];
-                          return q[knee] * q[knee] - 0.25;
-                        },
-                        {}};
-  problem->add(std::make_shared<SmoothRow>(bent));
+  problem->add(
+      std::make_shared<OwnRow>("knee bent", knee, [](double q) { return std::pair(q * q - 0.25, 2 * q); }));
   Eigen::VectorXd x = problem->variablesAt(kinematics->neutral());
   x[knee] = 0.3;
   const PostureValues& values = problem->evaluate(x);
