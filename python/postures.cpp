@@ -55,7 +55,11 @@ class PythonPostureSearch {
   Posture solve(const std::string& task, const std::string& path, int start, std::uint64_t seed,
                 const std::optional<Floats<Eigen::VectorXd>>& from) const {
     PostureSetup setup = setUp(taskOf(task, path), scene_);
-    requirePairs(setup.pairs.size(), *scene_.robot, "the task and the robot's joints leave none");
+    if (setup.pairs.empty())  // no robot's path in the message: a job's result is the same on every machine
+      throw Error(
+          path +
+          ": no pair of bodies is checked (the task and the robot's joints leave none), so that nothing "
+          "can be said about collisions; leave pairs to be checked in \"collisions\"");
     if (from) {
       requireNumbers(from->value, setup.start.size(), "start_from");
       setup.start = from->value;
