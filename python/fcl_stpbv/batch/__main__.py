@@ -84,7 +84,7 @@ def described():
     sample = kinds.add_parser("sample", parents=[robot, pairs, common], help="distances of all pairs in random configurations")
     sample.add_argument("--blocks", type=COUNT, default=100, help="of configurations; more continues a run [100]")
     sample.add_argument("--count", type=COUNT, default=1000, help="configurations a block [1000]")
-    postures = kinds.add_parser("postures", parents=[robot, common], help="for tasks, as find_posture does")
+    postures = kinds.add_parser("postures", parents=[robot, common], help="for tasks, as find_posture --primitives flat does")
     postures.add_argument("tasks", type=given, nargs="+", metavar="TASK", help="its JSON file (docs/posture.md)")
     postures.add_argument("--srdf", type=given, metavar="FILE", help="pairs to leave out and postures")
     postures.add_argument("--obstacles", type=given, metavar="FILE", help="URDF of a scene to keep clear of")
