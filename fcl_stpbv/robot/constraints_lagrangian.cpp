@@ -133,7 +133,6 @@ bool CollisionConstraints::rowHessian(std::size_t row) {
   double slope, curvature;
   levelled(row, witness.distance, slope, curvature);
   if (slope != 1 || curvature != 0) {
-    change_.segment(start, count).setZero();
     writeRow(row, witness, 1.0, change_.data());
     const auto g = change_.segment(start, count);
     h *= slope;
