@@ -131,8 +131,9 @@ class CollisionConstraints {
   /// d and J at q, and their rates while q moves with velocity qd. The rates are in closed form
   /// (docs/robot.md). On a region boundary they are those of one side; for a mesh or an octree they are those
   /// of its nearest triangle or cell. The drift is from central differences for smooth constraints and for
-  /// the few answers without a second derivative. If q or qd is not finite, or qd is above 1e100 so that its
-  /// square may overflow, d and J are as for a q that is not finite, and the rates are 0.
+  /// the few answers without a second derivative; 0 where a smooth constraint has no value beside q. If q or
+  /// qd is not finite, or qd is above 1e100 so that its square may overflow, d and J are as for a q that is
+  /// not finite, and the rates are 0.
   bool evaluateValues(const ConstVector& q, const ConstVector& qd, RowRates& rates, Vector values);
   /// The same evaluation with J in the structure of makeJacobian().
   bool evaluate(const ConstVector& q, const ConstVector& qd, RowRates& rates, SparseJacobian& jacobian);

@@ -156,8 +156,10 @@ bool CollisionConstraints::rowChange(std::size_t row, double* change) {
 }
 
 // Fills the open rows' part of change_ and of moves_, along v, by central differences. Afterwards the rows'
-// answers are those at q again.
+// answers are those at q again. Where a smooth constraint ends, so that it has no value on one side of q, its
+// change is not known.
 void CollisionConstraints::differences(const ConstVector& q, const ConstVector& v) {
+  constexpr char kEnds = 2;  // in place of the 1 of an open row
   // With this step the rounding of J divided by the step is about as large as the error at a region boundary.
   constexpr double kStep = 1e-6;
   const double length = v.norm();
@@ -168,7 +170,8 @@ void CollisionConstraints::differences(const ConstVector& q, const ConstVector& 
     for (std::size_t row = 0; row < open_.size(); ++row) {
       if (!open_[row]) continue;
       if (row >= pairs_.size()) {
-        smoothValue(row, moved_, values.data());
+        if (smoothValue(row, moved_, values.data()) == std::numeric_limits<double>::lowest())
+          open_[row] = kEnds;
         continue;
       }
       const Witness witness = ask(row);
@@ -188,7 +191,8 @@ void CollisionConstraints::differences(const ConstVector& q, const ConstVector& 
   for (std::size_t row = 0; row < open_.size(); ++row) {
     if (!open_[row]) continue;
     for (int k = rowStart_[row]; k < rowStart_[row + 1]; ++k)
-      change_[k] = step > 0 ? (change_[k] - otherChange_[k]) / (2 * step) : 0;
+      change_[k] = step > 0 && open_[row] != kEnds ? (change_[k] - otherChange_[k]) / (2 * step) : 0;
+    open_[row] = 1;
   }
   place(q);
   for (std::size_t row = 0; row < pairs_.size(); ++row)

@@ -157,6 +157,38 @@ TEST_CASE("A smooth constraint without a value is a row without a distance") {
   CHECK(rates.d[1] == 0.5);
 }
 
+TEST_CASE("Where a smooth constraint ends, the missing side is not taken for a change of its gradient") {
+  const Slide slide;
+  ConstraintOptions options;
+  options.smooth = {{"line",
+                     {1},
+                     [](const Eigen::Ref<const VectorXd>& q, double* gradient) {
+                       if (gradient) *gradient = 3;
+                       return q[1] < 0 ? std::nan("") : 3 * q[1];
+                     },
+                     {}}};
+  CollisionConstraints rows(slide.kinematics, slide.geometry(true), {}, options);
+  const VectorXd v = VectorXd::Ones(2), weight = VectorXd::Ones(1);
+  RowRates rates = rows.makeRates();
+  VectorXd values(rows.nonZeros()), product(2);
+  Eigen::MatrixXd full(2, 2);
+  CollisionConstraints::SparseHessian lower = rows.makeHessian();
+  for (const double q : {0.0, 1e-8, 0.1})
+    for (const double sign : {1.0, -1.0}) {
+      CHECK(rows.evaluateValues(slide.at(q), sign * v, rates, values));
+      CHECK(rates.d[0] == 3 * q);
+      CHECK(values[0] == 3);
+      CHECK(rates.speed[0] == 3 * sign);
+      CHECK(rates.drift[0] == 0);
+      CHECK(rows.hessianVector(slide.at(q), weight, sign * v, product));
+      CHECK(product.norm() == 0);
+      CHECK(rows.hessian(slide.at(q), weight, lower));
+      CHECK(lower.norm() == 0);
+      CHECK(rows.hessian(slide.at(q), 0, full));
+      CHECK(full.norm() == 0);
+    }
+}
+
 TEST_CASE("A motion's answer and least distance are not clear where nothing is known") {
   const Slide slide;
   for (const bool smooth : {false, true}) {
