@@ -21,7 +21,9 @@ using Quad = long double;  // already 113 bits on the platforms without __float1
 #endif
 
 constexpr double kQuadEpsilon = 1e-33;  // 2^-112 = 1.9e-34, rounded up generously
+constexpr double kQuadRoot = 3e-17;     // its square root
 static_assert(std::numeric_limits<long double>::digits >= 64, "a long double must hold 64 bits or more");
+constexpr double kQuadMargin = 64;  // for the constants of the error bound
 constexpr double kLongEpsilon =
     std::numeric_limits<long double>::epsilon() * 8;  // for about a dozen roundings in a formula
 
@@ -58,8 +60,9 @@ Quad squareRoot(Quad x) {
 
 // Outward normal at a of the ball through a, a+u, a+v. `condition` is the factor by which it magnifies
 // rounding. With N = u x v and O the circumcentre relative to a: m = -kappa O + sqrt(1 - kappa^2 O^2) N/|N|.
-// If the sine of the triangle's angle is below `leastSine`, the cross product is only rounding, and the
-// points count as collinear.
+// Where this root is small, it is off by the rounding of its square divided by itself, but at most by the
+// square root of that rounding. If the sine of the triangle's angle is below `leastSine`, the cross product
+// is only rounding, and the points count as collinear.
 template <class T>
 bool ballNormal(const Vec<T>& u, const Vec<T>& v, T kappa, double leastSine, Vec<T>* m, double* condition) {
   const Vec<T> n = cross(u, v);
@@ -75,7 +78,7 @@ bool ballNormal(const Vec<T>& u, const Vec<T>& v, T kappa, double leastSine, Vec
   if (static_cast<double>(rest) < -1e-17 / (sine * sine)) return false;
   const T root = rest > 0 ? squareRoot(rest) : T(0);
   *m = combine(T(-1), o, root / length, n);
-  *condition = (1 + 1 / (static_cast<double>(root) + 1e-9)) / sine;
+  *condition = (1 + 1 / (static_cast<double>(root) + kQuadRoot)) / sine;
   return true;
 }
 
@@ -107,7 +110,7 @@ TouchingBall::TouchingBall(const Eigen::Vector3d& a, const Eigen::Vector3d& b, c
     if (!valid_) return;
     condition_ = e.condition;
     m = {static_cast<long double>(e.m.x), static_cast<long double>(e.m.y), static_cast<long double>(e.m.z)};
-    error = kLongEpsilon + kQuadEpsilon * condition_;
+    error = kLongEpsilon + kQuadMargin * kQuadEpsilon * condition_;
   }
   m_[0] = m.x, m_[1] = m.y, m_[2] = m.z;
   normal_ = {static_cast<double>(m.x), static_cast<double>(m.y), static_cast<double>(m.z)};
@@ -147,7 +150,7 @@ int TouchingBall::side(const Eigen::Vector3d& p) const {
   const Exact& e = exact();
   const Vec<Quad> q = difference<Quad>(p, anchor_);
   const double value = static_cast<double>(e.kappa * dot(q, q) / 2 + dot(q, e.m));
-  const double unsure = 64 * kQuadEpsilon * e.condition * length;
+  const double unsure = kQuadMargin * kQuadEpsilon * e.condition * length;
   if (std::abs(value) > unsure) return value > 0 ? 1 : -1;
   return exactSide({anchor_, b_, c_, radius_}, p);
 }
@@ -166,7 +169,7 @@ int TouchingBall::turn(const Eigen::Vector3d& p, const Eigen::Vector3d& q, const
   const Vec<Quad> o = difference<Quad>(p, anchor_);
   const Vec<Quad> m{e.m.x + e.kappa * o.x, e.m.y + e.kappa * o.y, e.m.z + e.kappa * o.z};
   const double d = static_cast<double>(dot(m, cross(difference<Quad>(q, p), difference<Quad>(s, p))));
-  const double unsure = 64 * kQuadEpsilon * e.condition * size;
+  const double unsure = kQuadMargin * kQuadEpsilon * e.condition * size;
   if (std::abs(d) > unsure) return d > 0 ? 1 : -1;
   return exactTurn({anchor_, b_, c_, radius_}, p, q, s);
 }
