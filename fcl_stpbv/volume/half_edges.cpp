@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <string>
 
@@ -72,24 +73,27 @@ class RollingBall {
         from_(across(normal)),
         ahead_(along_.cross(from_)) {}
 
-  /// Angle by which the ball rolls to a face that has this normal at the edge's start, [0, 2 pi).
-  double turnTo(const Vector3d& normal) const {
+  /// Angle by which the ball rolls to the face `ring` that has this normal at the edge's start, [0, 2 pi].
+  double turnTo(const Ring& ring, const Vector3d& normal) const {
     const Vector3d to = across(normal);
-    const double turn = std::atan2(to.dot(ahead_), to.dot(from_));
-    if (turn >= 0) return turn;
-    return turn > -kNothing && !isSpindle() ? 0 : turn + 2 * kPi;  // a zero turn may be rounded to below zero
+    const double forward = to.dot(ahead_), turn = std::atan2(forward, to.dot(from_));
+    if (turn <= -kNothing) return turn + 2 * kPi;
+    if (turn >= kNothing || forward > kRounding) return turn;
+    // A turn of zero and one of 2 pi may be rounded to either side.
+    return isSpindle(ring_) && isSpindle(ring) ? 2 * kPi + std::min(turn, 0.0) : std::max(turn, 0.0);
   }
 
  private:
-  static constexpr double kNothing = 1e-6;  // rad
+  static constexpr double kNothing = 1e-6;                                          // rad
+  static constexpr double kRounding = 16 * std::numeric_limits<double>::epsilon();  // of a unit normal's part
 
   Vector3d across(const Vector3d& v) const { return v - v.dot(along_) * along_; }
 
-  /// A turn of almost 2 pi is possible only if one of the face's other vertices rises very little over the
-  /// arc on which the ball rolls, and is highest in the small angle by which the turn falls short of 2 pi.
-  /// Seen along the edge, such a vertex lies in the direction of the face's normal.
-  bool isSpindle() const {
-    return std::any_of(ring_.begin(), ring_.end(), [&](int i) {
+  /// A turn of almost 2 pi is possible only if, of each of the two faces, one of the other vertices rises
+  /// very little over the arc on which the ball rolls, and is highest in the small angle by which the turn
+  /// falls short of 2 pi. Seen along the edge, such a vertex lies in the direction of the face's normal.
+  bool isSpindle(const Ring& ring) const {
+    return std::any_of(ring.begin(), ring.end(), [&](int i) {
       const Vector3d q = across(points_[at(i)] - points_[at(start_)]);
       return i != start_ && i != end_ && q.dot(from_) > 0 &&
              q.cross(from_).norm() <= 2 * kNothing * q.norm() * from_.norm();
@@ -125,7 +129,8 @@ std::vector<HalfEdge> pairHalfEdges(const std::vector<Vector3d>& points, const s
     };
     const RollingBall ball(points, ring, a, b, normalAt(edge.face));
     leaving.between(b, a, [&](int twin) {
-      const double turn = ball.turnTo(normalAt(halfEdges[at(twin)].face));
+      const int over = halfEdges[at(twin)].face;
+      const double turn = ball.turnTo(faces[at(over)], normalAt(over));
       if (edge.twin < 0 || turn < edge.turn) edge.twin = twin, edge.turn = turn;
     });
     if (edge.twin < 0)

@@ -11,7 +11,7 @@ namespace fcl_stpbv::detail {
 struct HalfEdge {
   int face, corner;  ///< runs from ring[corner] to the next vertex of faces[face]
   int twin = -1;     ///< index of the half-edge on the other side
-  double turn = 0;   ///< angle by which the ball rolls from this face to the twin's, [0, 2 pi)
+  double turn = 0;   ///< angle by which the ball rolls from this face to the twin's, [0, 2 pi]
 };
 
 /// Half-edges of `faces` in order, paired with their twins. Two vertices may be joined by several edges. Then

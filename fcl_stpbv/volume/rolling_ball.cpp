@@ -178,10 +178,9 @@ RolledHull hullOf(const std::vector<Vector3d>& points, std::vector<Ring> faces, 
   return hull;
 }
 
-/// The two end points of a cloud whose points are on one line up to rounding. A face that rounding makes
-/// there could miss an end point. Empty if some point is off the line.
-std::vector<int> needleEnds(const std::vector<Vector3d>& points) {
-  constexpr double kRounding = 3e-14;  // share of the length
+/// Two points far apart: the two ends, if the points are on one line or in a spindle. Both may be the same
+/// point.
+std::array<int, 2> farEnds(const std::vector<Vector3d>& points) {
   const auto farthestFrom = [&](int from) {
     int best = from;
     double most = 0;
@@ -192,12 +191,20 @@ std::vector<int> needleEnds(const std::vector<Vector3d>& points) {
     return best;
   };
   const int a = farthestFrom(0), b = farthestFrom(a);
-  const Vector3d axis = points[at(b)] - points[at(a)];
+  return {std::min(a, b), std::max(a, b)};
+}
+
+/// The two end points of a cloud whose points are on one line up to rounding. A face that rounding makes
+/// there could miss an end point. Empty if some point is off the line.
+std::vector<int> needleEnds(const std::vector<Vector3d>& points) {
+  constexpr double kRounding = 3e-14;  // share of the length
+  const auto [a, b] = farEnds(points);
+  const Vector3d start = points[at(a)], axis = points[at(b)] - start;
   const double length = axis.norm();
   if (!(length > 0)) return {};
   for (const Vector3d& p : points)
-    if ((p - points[at(a)]).cross(axis).norm() > kRounding * length * length) return {};
-  return {std::min(a, b), std::max(a, b)};
+    if ((p - start).cross(axis).norm() > kRounding * length * length) return {};
+  return {a, b};
 }
 
 }  // namespace
@@ -247,7 +254,13 @@ RolledHull quickBallHull(const std::vector<Vector3d>& points, double radius) {
 }
 
 RolledHull hullByDefinition(const std::vector<Vector3d>& points, double radius) {
-  return hullOf(points, facesByDefinition(points, radius), {}, radius);
+  std::vector<Ring> faces = facesByDefinition(points, radius);
+  std::vector<int> lone;
+  if (faces.empty()) {
+    const auto [a, b] = farEnds(points);
+    lone = a == b ? std::vector<int>{a} : std::vector<int>{a, b};
+  }
+  return hullOf(points, std::move(faces), std::move(lone), radius);
 }
 
 }  // namespace fcl_stpbv::detail

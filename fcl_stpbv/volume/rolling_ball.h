@@ -31,8 +31,8 @@ RolledHull convexHull(const std::vector<Eigen::Vector3d>& points);
 RolledHull flatHull(const std::vector<Eigen::Vector3d>& points);
 
 /// The same hull as rollBall(), but directly from the definition of faces: slow and reliable. For at most
-/// kMostByDefinition points (ball_faces.h) and a finite radius. Empty for a sphere or a spindle, which have
-/// no face.
+/// kMostByDefinition points (ball_faces.h) and a finite radius. Without a face it is a sphere or a spindle.
+/// Then it has two points far apart, or one point; the caller has to check this.
 RolledHull hullByDefinition(const std::vector<Eigen::Vector3d>& points, double radius);
 
 /// The hull of rollBall() by quickhull (ball_quickhull.h), which is much faster. It has no faces if quickhull

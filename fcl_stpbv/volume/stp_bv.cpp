@@ -111,8 +111,11 @@ StpBv::Ptr StpBv::build(const std::vector<Vector3d>& points, const StpBvOptions&
     return build(fewer, options);
   }
   checkRadius(points, options);
+  const double rho = options.R - options.r;
   Soundness found = Soundness::broken;
-  const auto built = [&](RolledHull hull) {
+  Ptr volume;
+  // Makes the volume with these faces, and keeps it unless the one before is sounder.
+  const auto offer = [&](RolledHull hull) {
     std::vector<int> newIndex(points.size(), -1);
     std::vector<Vector3d> vertices, others;
     for (const int i : hull.vertices) {
@@ -123,36 +126,28 @@ StpBv::Ptr StpBv::build(const std::vector<Vector3d>& points, const StpBvOptions&
       for (int& i : ring) i = newIndex[at(i)];
     for (std::size_t i = 0; i < points.size(); ++i)
       if (newIndex[i] < 0) others.push_back(points[i]);
-    const Ptr volume = make(std::move(vertices), std::move(hull.faces), options);
+    const Ptr made = make(std::move(vertices), std::move(hull.faces), options);
     double off = 0;
-    found = soundnessOf(*volume, points, others, &off);
-    volume->tables_->supportError = supportErrorOf(*volume, off);
-    return volume;
+    const Soundness sound = soundnessOf(*made, points, others, &off);
+    made->tables_->supportError = supportErrorOf(*made, off);
+    if (volume && found < sound) return;
+    volume = made, found = sound;
   };
-  const double rho = options.R - options.r;
-  Ptr volume;
   try {
     RolledHull quick = quickBallHull(points, rho);
-    if (!quick.faces.empty()) volume = built(std::move(quick));
+    if (!quick.faces.empty()) offer(std::move(quick));
   } catch (const Error&) {  // quickhull's faces do not close: the cloud needs the rolling ball
   }
   if (found != Soundness::exact) {
-    const Ptr quick = volume;
-    const Soundness before = quick ? found : Soundness::broken;
     try {
-      volume = built(rollBall(points, rho));
+      offer(rollBall(points, rho));
     } catch (const Error&) {
-      if (before == Soundness::broken) throw;
-      found = Soundness::broken;
+      if (found == Soundness::broken && points.size() > kMostByDefinition) throw;
     }
-    if (before < found) volume = quick, found = before;
   }
-  // Clusters of points that differ only by a few roundings can make the roll fail. A wrong volume must not be
-  // returned.
-  if (found >= Soundness::off && points.size() <= kMostByDefinition) {
-    RolledHull sure = hullByDefinition(points, rho);
-    if (!sure.faces.empty()) volume = built(std::move(sure));
-  }
+  // Clusters of points that differ only by a few roundings can make the roll fail, and so can a point on the
+  // surface of a spindle. A wrong volume must not be returned.
+  if (found >= Soundness::off && points.size() <= kMostByDefinition) offer(hullByDefinition(points, rho));
   if (found == Soundness::broken)
     throw Error(
         "the points are too close to each other to be told apart: merge those closer together than about " +

@@ -62,7 +62,7 @@ class StpBv {
   /// An edge: its two vertices and the faces on its two sides. On a spindle (two vertices, one edge patch all
   /// around) both faces are -1. The ring of `face[0]` contains the edge in the direction from `vertex[0]` to
   /// `vertex[1]`. `turn` is the angle about the edge from the normals of `face[0]` to those of `face[1]`. It
-  /// is 2 pi on a spindle, otherwise below 2 pi. Two vertices may be joined by several edges.
+  /// is 2 pi on a spindle, otherwise at most 2 pi. Two vertices may be joined by several edges.
   struct Edge {
     std::array<int, 2> vertex;  ///< the ends, indices into vertices()
     std::array<int, 2> face;    ///< the faces on its two sides, -1: none
