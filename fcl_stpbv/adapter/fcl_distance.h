@@ -67,8 +67,8 @@ struct DistanceAnswer {
   /// Distance of the second nearest triangle or cell (m); infinite if there is none. The nearest element can
   /// change only after the two distances have approached each other by `runnerUp - distance`. It equals
   /// `distance` if the nearest point is on a shared edge or corner. For two meshes, clouds or octrees it is
-  /// only a lower bound, which may be as low as `distance`: if one plane separates them, no second pair is
-  /// searched.
+  /// only a lower bound, which may be as low as `distance`: if one plane separates them, or if they overlap,
+  /// no second pair is searched.
   double runnerUp = std::numeric_limits<double>::infinity();
   /// Whether distance and gradient are continuous under motions. True for an STP-BV against an STP-BV or a
   /// simple shape. False for meshes and octrees, because their nearest element switches, and for two

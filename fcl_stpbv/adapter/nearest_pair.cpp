@@ -196,7 +196,7 @@ class NearestElements {
     found.distance = 0;
     found.lower = -rounding;
     found.upper = std::max(rounding, upper_);
-    result_.runnerUp = kInfinity;
+    result_.runnerUp = 0;  // other elements may meet as well
   }
 
   const PosedPair& pair_;

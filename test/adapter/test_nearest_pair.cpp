@@ -115,6 +115,7 @@ TEST_CASE("two meshes or trees that overlap are 0 apart, with two elements that 
       if (truth.distance > 0) continue;
       ++met;
       CHECK(d.distance == 0);
+      CHECK(d.runnerUp == 0);  // many elements meet
       CHECK((d.lower < 0 && d.upper > 0));
       CHECK(d.upper - d.lower <= 2 * kRounding);
       REQUIRE(truth.all.count(d.element) == 1);
