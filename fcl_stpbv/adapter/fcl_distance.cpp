@@ -3,6 +3,7 @@
 #include "fcl_stpbv/adapter/fcl_distance.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "fcl_stpbv/adapter/element_tree.h"
@@ -164,7 +165,8 @@ Distance distance(const StpBvGeometry& geometry, const fcl::Transform3d& pose, c
 
 fcl::DistanceResultd toFclResult(const DistanceAnswer& answer) {
   fcl::DistanceResultd result;
-  result.min_distance = answer.status != DistanceStatus::invalid ? answer.distance : -1;
+  // The largest double before the first pair of a scene; minus infinity for a pair without an answer.
+  result.min_distance = std::isfinite(answer.distance) ? answer.distance : -1;
   result.nearest_points[0] = answer.points[0];
   result.nearest_points[1] = answer.points[1];
   result.o1 = answer.geometry[0];

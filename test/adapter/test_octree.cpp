@@ -170,7 +170,9 @@ TEST_CASE("a scene's free map hides nothing else in it") {
       none(std::make_shared<fcl::Sphered>(-1.0));
   DistanceData data;
   double dist = std::numeric_limits<double>::max();
+  CHECK(toFclResult(data.result).min_distance == dist);  // as in FCL, before the first pair
   distanceCallback(&map, &ball, &data, dist);
+  CHECK(toFclResult(data.result).min_distance == std::numeric_limits<double>::max());
   distanceCallback(&ball, &box, &data, dist);
   CHECK(data.result.distance == Approx(0.8).margin(1e-15));
   CHECK(data.invalid == 0);
