@@ -122,9 +122,10 @@ bool steadyMotion(const Isometry3d& begin, const Isometry3d& end, fcl::CCDMotion
 
 bool steadyMotion(const fcl::MotionBased& motion, SteadyMotion& result) {
   if (const auto* m = exactly<fcl::TranslationMotion<double>>(motion)) {
+    fcl::TranslationMotion<double> own = *m;  // because integrate() moves the object that it is called on
     Isometry3d begin;
-    m->integrate(0);
-    m->getCurrentTransform(begin);
+    own.integrate(0);
+    own.getCurrentTransform(begin);
     Isometry3d end = begin;
     end.translation() += m->getVelocity();
     return steadyMotion(begin, end, fcl::CCDM_TRANS, result);

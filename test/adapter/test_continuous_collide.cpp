@@ -245,6 +245,23 @@ TEST_CASE("objects that carry their motion, and a screw without a turn, go where
   CHECK(result.is_collide);
 }
 
+TEST_CASE("a motion object is only read: it stays at the time to which its owner has moved it") {
+  const fcl::Boxd crate(0.2, 0.2, 0.2);
+  const fcl::TranslationMotion<double> slide(at(0, 0, 0), at(1, 0, 0));
+  const fcl::ScrewMotion<double> screw(at(2, 0, 0), at(3, 0, 0));
+  const fcl::InterpMotion<double> interpolation(at(4, 0, 0), at(5, 0, 0));
+  for (const fcl::MotionBased* motion :
+       std::initializer_list<const fcl::MotionBased*>{&slide, &screw, &interpolation}) {
+    motion->integrate(0.5);
+    Isometry3d before, after;
+    motion->getCurrentTransform(before);
+    fcl::ContinuousCollisionResultd result;
+    continuousCollide(&crate, motion, &crate, motion, requestOf(fcl::CCDM_TRANS, 1e-6), result);
+    motion->getCurrentTransform(after);
+    CHECK(after.matrix() == before.matrix());
+  }
+}
+
 TEST_CASE(
     "no motion meets cells that FCL's marks call free, and the poses of the result are those of the end") {
   const fcl::Sphered ball(0.1);
