@@ -16,8 +16,6 @@
 namespace fcl_stpbv::detail {
 namespace {
 
-using namespace detail;
-
 using Eigen::Isometry3d;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;

@@ -115,7 +115,6 @@ int StpBvGeometry::patchOf(const HullFeature& feature) const {
 }
 
 void StpBvGeometry::computeLocalAABB() {
-  if (!volume_) return;  // called by FCL's base constructor in some versions
   for (int axis = 0; axis < 3; ++axis) {
     const Vector3d n = Vector3d::Unit(axis);
     aabb_local.max_[axis] = volume_->support(n);
