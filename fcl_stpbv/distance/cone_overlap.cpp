@@ -116,12 +116,11 @@ class WaysOut {
   /// out shorter than `worth_`.
   std::optional<LeastOverlap> answer() {
     if (!(best_.depth - std::min(bound_, worth_) <= 2.0 * q_.rounding.gap)) return {};
-    LeastOverlap found{{}, -std::min(bound_, best_.depth) + q_.rounding.across, true, true};
+    LeastOverlap found{{}, -std::min(bound_, best_.depth) + q_.rounding.across};
     found.at.n = best_.n;
     found.at.patch = best_.patch;
     found.at.gap = -best_.depth;
     found.at.y = ontoTriangle(met_.three(), best_.point + found.at.gap * best_.n);
-    found.at.corners = 1;
     std::optional<DeepFeature> exact;
     for (const bool ascend : {false, true})
       if (!exact) exact = deepestFeature(q_, {found.at.n, found.at.patch}, found.at.gap, met_, ascend);
@@ -223,7 +222,7 @@ bool leaveSegment(const ShapeQuery& q, WaysOut& ways) {
 bool leaveTriangle(const ShapeQuery& q, WaysOut& ways) {
   constexpr double kSliver = 1e-3;  // of a height to a side: if it is less, the normal is too inaccurate
   std::array<Vector3d, 3> p, t;
-  for (std::size_t i = 0; i < 3; ++i) p[i] = q.posed(q.shape.corner[i]);
+  for (std::size_t i = 0; i < 3; ++i) p[i] = q.pose.placed(q.shape.corner[i]);
   double longest = 0.0;
   for (std::size_t i = 0; i < 3; ++i) {
     const Vector3d side = p[(i + 1) % 3] - p[i];
@@ -293,7 +292,7 @@ std::optional<LeastOverlap> overlapOfCones(ShapeQuery& q) {
   const ShapeKind kind = q.shape.kind;
   if (kind != ShapeKind::segment && kind != ShapeKind::triangle && kind != ShapeKind::box) return {};
   // This point must be deep enough that no corner leaves through an edge or a vertex of the volume.
-  const Vector3d y = q.posed(ontoCore(q.shape, q.pose.inSecond(q.body.centre())));
+  const Vector3d y = q.pose.placed(ontoCore(q.shape, q.pose.inSecond(q.body.centre())));
   const std::optional<PointDepth> inside = pointDepth(q.body, y);
   if (!inside) return {};
   WaysOut ways(q);

@@ -33,7 +33,7 @@ using namespace detail;
 /// Half spaces and planes have one or two normals. The distance is the gap along one of them.
 Nearest nearestOnHalfspace(ShapeQuery& q) {
   const Vector3d normal = (q.rotation * q.shape.normal).normalized();
-  const Vector3d onPlane = q.posed(q.shape.offset * q.shape.normal);
+  const Vector3d onPlane = q.pose.placed(q.shape.offset * q.shape.normal);
   Nearest found = nearestOnPlane(q, onPlane, -normal, -1);
   if (q.shape.kind == ShapeKind::plane) {
     const Nearest other = nearestOnPlane(q, onPlane, normal, -1);
@@ -80,18 +80,23 @@ Trial trialAlong(ShapeQuery& q, const Vector3d& n, int hint) {
   trial.at.patch = view.patch;
   trial.at.y = q.facing(n);
   trial.at.gap = view.gap(trial.at.y);
-  trial.at.corners = 1;
   trial.difference = trial.at.y - view.point;
   ++q.pairs;
   return trial;
 }
 
+/// The widest gap that bisection found.
+struct GapByCuts : LeastOverlap {
+  bool overlap = false;  ///< the cores have a common point, beyond rounding
+  bool solved = true;    ///< the remaining normals are equal up to rounding
+};
+
 /// Bisects the convex cone of remaining normals until only one normal is left, up to rounding. It needs only
 /// support points of the two whole bodies (docs/theory.md, 5). Slow, but it cannot fail.
-LeastOverlap widestGapByCuts(ShapeQuery& q, const StartNormal& start) {
+GapByCuts widestGapByCuts(ShapeQuery& q, const StartNormal& start) {
   Trial trial = trialAlong(q, start.n, start.patch);
-  LeastOverlap best{trial.at, trial.difference.norm(), false, false};
-  if (!(best.bound > q.rounding.gap)) return {trial.at, best.bound, false, true};  // touching
+  GapByCuts best{{trial.at, trial.difference.norm()}};
+  if (!(best.bound > q.rounding.gap)) return best;  // touching
   const auto asTrial = [&] { return DirectionTrial{trial.at.n, trial.at.gap, trial.difference}; };
   constexpr auto never = [](const DirectionTrial&) { return false; };
   best.solved = !bisectDirections(
@@ -172,7 +177,7 @@ Solution solve(ShapeQuery& q, const StartNormal& start) {
   }
   found = nearestOnShape(q, start);
   if (certified(q, found)) return {found, DistanceStatus::exact, kNone};
-  const LeastOverlap cuts = widestGapByCuts(q, found.apart ? StartNormal{found.n, found.patch} : start);
+  const GapByCuts cuts = widestGapByCuts(q, found.apart ? StartNormal{found.n, found.patch} : start);
   if (cuts.overlap) return deepSolution(leastOverlap(q, {cuts.at.n, cuts.at.patch}));
   // This is near the answer. A feature search from here gives the last digits.
   found = nearestOnShape(q, {cuts.at.n, cuts.at.patch});
@@ -193,7 +198,7 @@ double placeOpposite(const ShapeQuery& q, const Vector3d& point, Nearest& found)
   const Vector3d opposite = point + found.gap * found.n;
   const double beside = (found.y - opposite).norm();
   if (beside <= 2.0 * q.rounding.across || q.shape.unbounded()) return beside;
-  const Vector3d nearest = q.posed(ontoCore(q.shape, q.pose.inSecond(opposite)));
+  const Vector3d nearest = q.pose.placed(ontoCore(q.shape, q.pose.inSecond(opposite)));
   if (!((nearest - opposite).norm() < beside)) return beside;
   found.y = nearest;
   return (nearest - opposite).norm();

@@ -99,12 +99,11 @@ std::optional<LeastOverlap> overlapOfPoint(ShapeQuery& q, const StartNormal& sta
     const double next = (last - y).norm();
     if (next <= q.rounding.gap) {
       const SupportPoint view = viewVolume(q.body, way->normal, way->patch, q.steps);
-      LeastOverlap found{{}, 0.0, true, true};
+      LeastOverlap found{{}, 0.0};
       found.at.n = way->normal;
       found.at.patch = view.patch;
       found.at.y = y;
       found.at.gap = view.gap(y);
-      found.at.corners = 1;
       found.bound = std::max(-way->depth, found.at.gap) + q.rounding.across;
       if (!(found.at.gap >= -way->depth - q.rounding.gap)) break;
       return found;
@@ -134,7 +133,7 @@ LeastOverlap leastOverlap(ShapeQuery& q, const StartNormal& start) {
     maximum(epa);
   }
   // The polytope's points are off by the rounding of the volume's core points.
-  LeastOverlap best{{}, std::max(epa.bound, epa.gap) + q.rounding.across, true, epa.solved()};
+  LeastOverlap best{{}, std::max(epa.bound, epa.gap) + q.rounding.across};
   if (top) {
     best.at = top->at;
     return best;
@@ -142,7 +141,6 @@ LeastOverlap leastOverlap(ShapeQuery& q, const StartNormal& start) {
   best.at.n = epa.n;
   best.at.gap = epa.gap;
   best.at.y = epa.onB();
-  best.at.corners = 1;
   return best;
 }
 

@@ -30,7 +30,7 @@ StartNormal startOf(const ShapeQuery& q, const PairCache& last) {
   const double length2 = n.squaredNorm();
   if (PairCache::isDirection(length2) && last.patch[0] < q.body.patchCount())
     return {n / std::sqrt(length2), last.patch[0]};
-  const Vector3d d = q.posed(q.shape.centre) - q.body.centre();
+  const Vector3d d = q.pose.placed(q.shape.centre) - q.body.centre();
   const double away = d.norm();
   return {away > 0.0 ? Vector3d(d / away) : Vector3d::UnitX(), -1};
 }
@@ -190,8 +190,8 @@ class CornerSet {
 
 Nearest nearestOnPolytope(ShapeQuery& q, const StartNormal& start) {
   if (q.shape.kind == ShapeKind::triangle)
-    return nearestOnTriangle(q, q.posed(q.shape.corner[0]), q.posed(q.shape.corner[1]),
-                             q.posed(q.shape.corner[2]), start);
+    return nearestOnTriangle(q, q.pose.placed(q.shape.corner[0]), q.pose.placed(q.shape.corner[1]),
+                             q.pose.placed(q.shape.corner[2]), start);
   constexpr int kRounds = 60;  // a handful is usual; each lowers the distance, so the search cannot cycle
   CornerSet set;
   set.add(q.facing(start.n));

@@ -32,7 +32,6 @@ struct ShapeQuery {
   Eigen::Vector3d facing(const Eigen::Vector3d& n) const {
     return pose.placed(shape.support(pose.opposite(n)));
   }
-  Eigen::Vector3d posed(const Eigen::Vector3d& p) const { return pose.placed(p); }
 };
 
 /// The nearest points of the cores, as a search found them.
@@ -65,8 +64,6 @@ bool isNearer(const ShapeQuery& q, const Nearest& x, const Nearest& than, const 
 struct LeastOverlap {
   Nearest at;    ///< the best normal seen; `gap` is the true gap along it
   double bound;  ///< upper bound on the gap along every normal (m)
-  bool overlap;  ///< the cores have a common point, beyond rounding
-  bool solved;   ///< the remaining normals are equal up to rounding
 };
 
 /// The unit vector perpendicular to the unit vector `t` and nearest to `n`. Any perpendicular one if `n` is

@@ -54,7 +54,6 @@ class ConeSide {
     found.y = x.view.point + found.n.dot(apex_ - x.view.point) * found.n;
     const Vector3d generator = cos_ * -axis_ + sin_ * x.e;
     const double along = (found.y - apex_).dot(generator);
-    found.corners = 2;
     found.apart = found.gap > 0.0 && along >= 0.0 && along <= slant_;
     // Rounding may put the point beside the generator: project it back.
     if (found.apart) found.y = apex_ + along * generator;
