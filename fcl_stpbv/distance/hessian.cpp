@@ -44,6 +44,12 @@ double sizeOf(const StpBv& body) { return body.centre().norm() + body.enclosingR
 double sizeOf(const Shape& shape) { return shape.centre.norm() + shape.reach; }
 double marginOf(const StpBv&) { return 0.0; }
 double marginOf(const Shape& shape) { return shape.margin; }
+double pointRounding(const StpBv&, const Vector3d&) { return 0.0; }
+/// How far the rounding of a witness point `x` (world) may put a radius of curvature off (m). That of a
+/// cone's side depends on the point.
+double pointRounding(const Shape& shape, const Vector3d& x) {
+  return shape.kind == ShapeKind::cone ? std::numeric_limits<double>::epsilon() * x.lpNorm<1>() : 0.0;
+}
 
 /// Body 1 or 2 at an answer: its outward normal, its witness point and its patch.
 struct Side {
@@ -130,7 +136,9 @@ bool touchOf(const A& a, const Isometry3d& poseA, const B& b, const Isometry3d& 
   touch.armA = d.point[0] - poseA.translation();
   touch.fromB = d.point[0] - poseB.translation();
   constexpr double kTold = 4.0;  // times rounding: a smaller sum of radii of curvature counts as zero
-  return touch.meeting.set(first, second, d.distance, kTold * (placed + placeRounding(margins)));
+  const double rounding =
+      placed + placeRounding(margins) + pointRounding(a, d.point[0]) + pointRounding(b, d.point[1]);
+  return touch.meeting.set(first, second, d.distance, kTold * rounding);
 }
 
 /// The matrix `t` with `w^T t w = a.(w x (w x n))`: second-order change of a rotating body's normal, times

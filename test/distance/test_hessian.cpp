@@ -273,3 +273,20 @@ TEST_CASE("There is no Hessian without an answer, and none where cores touch wit
   CHECK_FALSE(hessian(*a, here, *a, here, Distance(), h));
   CHECK_FALSE(hessian(*a, here, *a, here, distance(*a, here, *a, here), h));  // coincident centres
 }
+
+TEST_CASE("A point on the axis of a cone or a cylinder has no Hessian, however far from the world's origin") {
+  const Shape point = Shape::sphere(0.0);
+  Random random(31);
+  for (const Shape& round : {Shape::coneOf(0.15, 0.3), Shape::cylinderOf(0.15, 0.9)})
+    for (const double far : {0.0, 1.0, 1e3, 1e6})
+      for (int i = 0; i < 200; ++i) {
+        const Vector3d middle = far * random.direction();
+        const Isometry3d a = pose(random.rotation(), middle), b = pose(random.rotation(), middle);
+        const Distance d = distance(point, a, round, b);
+        CAPTURE(far, d.distance);
+        CHECK(d.status == DistanceStatus::exact);
+        DistanceHessian h;
+        CHECK_FALSE(hessian(point, a, round, b, d, h));
+        CHECK_FALSE(hessian(round, b, point, a, distance(round, b, point, a), h));
+      }
+}
