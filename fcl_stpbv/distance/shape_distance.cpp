@@ -249,7 +249,7 @@ Distance distance(const Shape& shape, const Isometry3d& poseShape, const StpBv& 
   if (cache) mirrored = cache->mirrored();
   const Distance result =
       distance(volume, poseVolume, shape, poseShape, cache ? &mirrored : nullptr).mirrored();
-  if (cache) *cache = {result.normal, result.patch};
+  if (cache) *cache = mirrored.mirrored();
   return result;
 }
 

@@ -227,6 +227,24 @@ TEST_CASE("Each pose within 1e-6 of a rotation is taken for the nearest rotation
   }
 }
 
+TEST_CASE("A pair without an answer leaves the last answer in its cache, in either order of the bodies") {
+  const StpBv::Ptr a = StpBv::build(box(0.3, 0.2, 0.5), {0.01, 10});
+  const Shape shape = Shape::coneOf(0.1, 0.3);
+  const Isometry3d here = Isometry3d::Identity(), there = pose(Matrix3d::Identity(), {1, 0, 0}),
+                   bad = pose(2.0 * Matrix3d::Identity(), {1, 0, 0});
+  const auto check = [&](const auto& first, const auto& second) {
+    PairCache cache;
+    distance(first, here, second, there, &cache);
+    const PairCache last = cache;
+    CHECK(last.normal.norm() == Approx(1));
+    CHECK(distance(first, here, second, bad, &cache).status == DistanceStatus::invalid);
+    CHECK((cache.normal == last.normal && cache.patch == last.patch));
+  };
+  check(*a, *a);
+  check(*a, shape);
+  check(shape, *a);
+}
+
 TEST_CASE("A pose that is stretched, sheared or mirrored has no answer, whatever the other pose is") {
   const StpBv::Ptr a = StpBv::build(box(0.3, 0.2, 0.5), {0.01, 10});
   const Shape shape = Shape::coneOf(0.1, 0.3), other = Shape::boxOf({0.2, 0.3, 0.1});
