@@ -170,7 +170,8 @@ DistanceAnswer distance(const fcl::CollisionObject<S>& object1, const fcl::Colli
   return {};
 }
 
-/// Converts an answer to FCL's result type.
+/// Converts an answer to FCL's result type. `min_distance` is -1 without an answer, and the largest double in
+/// the `result` of DistanceData before the first pair.
 fcl::DistanceResultd toFclResult(const DistanceAnswer& answer);
 
 /// Distance of a fixed pair of geometries at many poses; each query starts from the last answer. Only one
