@@ -194,7 +194,7 @@ TEST_CASE("pair caches change the work of a manager's query, not its answer") {
   CHECK(std::abs(warm.result.distance - cold.result.distance) <= 1e-14);
 }
 
-TEST_CASE("other geometries in the scene are answered by FCL and marked") {
+TEST_CASE("pairs of simple shapes in a scene are answered, and marked as not continuous") {
   Scene scene = randomScene(8, 1.5, 11);
   const auto ball = std::make_shared<fcl::Sphered>(0.1);
   scene.push_back(
