@@ -208,8 +208,10 @@ bool distanceCallback(fcl::CollisionObjectd* object1, fcl::CollisionObjectd* obj
     if (query.caches) context.cache = &query.caches->of(object1, object2);
     const DistanceAnswer answer = distance(*object1, *object2, context);
     query.invalid += answer.status == DistanceStatus::invalid;
-    // Without an answer it is minus infinity.
-    if (answer.distance < query.result.distance) query.result = answer;
+    // Without an answer it is minus infinity. A map of free cells is as far away as no pair at all.
+    const bool isFirst = !query.result.geometry[0];
+    if (answer.distance < query.result.distance || (isFirst && answer.distance == query.result.distance))
+      query.result = answer;
   }
   // `dist` is above 0, so that pairs of overlapping boxes are still asked: the distance of such boxes is 0,
   // and FCL prunes by `<`. It is below the largest double, with which the sweeping managers begin: they would

@@ -255,8 +255,9 @@ class PairCaches {
 struct DistanceData {
   /// Only for compatibility with FCL's callback data; it has no effect.
   fcl::DistanceRequestd request = fcl::DistanceRequestd(true);
-  /// The closest pair so far. Before the first pair, `distance` is the largest double. If a pair has no
-  /// answer, that pair is the result: status `invalid`, distance minus infinity; `object` names the pair.
+  /// The closest pair so far. Before the first pair, `distance` is the largest double, and the status is
+  /// `invalid`. If a pair has no answer, that pair is the result: status `invalid`, distance minus infinity;
+  /// `object` names the pair.
   DistanceAnswer result = beforeFirstPair();
   bool done = false;  ///< set it to stop the search
   /// Whether to stop at the first pair in contact, as FCL's own callback does. Otherwise the deepest pair is

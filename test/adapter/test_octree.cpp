@@ -172,7 +172,9 @@ TEST_CASE("a scene's free map hides nothing else in it") {
   double dist = std::numeric_limits<double>::max();
   CHECK(toFclResult(data.result).min_distance == dist);  // as in FCL, before the first pair
   distanceCallback(&map, &ball, &data, dist);
+  CHECK((data.result.status == DistanceStatus::exact && data.result.object[0] == &map));
   CHECK(toFclResult(data.result).min_distance == std::numeric_limits<double>::max());
+  CHECK(dist < std::numeric_limits<double>::max());
   distanceCallback(&ball, &box, &data, dist);
   CHECK(data.result.distance == Approx(0.8).margin(1e-15));
   CHECK(data.invalid == 0);
