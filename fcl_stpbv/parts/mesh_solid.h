@@ -136,7 +136,8 @@ struct ExcessOptions {
   double corners = std::numeric_limits<double>::infinity();
 };
 
-/// Options for an estimate to display: takes a tenth of a second, and is usually within 2 % and 0.1 mm.
+/// Options for an estimate to display: takes a tenth of a second, and is within 2 % and 0.01 mm, unless the
+/// limit on the queries ends it first.
 inline ExcessOptions quickExcess(bool filled) {
   ExcessOptions options;
   options.relative = 0.02;
