@@ -101,8 +101,7 @@ int main(int argc, char** argv) {
   app.option("--runs", a.runs, "runs a row, each with its own path and start").whole(1).shown();
   app.option("--scenario", a.scenarios, "only these").oneOf(scenarios());
   app.flag("--all", a.all, "every r and R, not only r = 10 mm with R = 1 and 10 m");
-  app.flag("--advise", a.advise,
-           "radii advised for some allowed accelerations, and what runs with them measure");
+  app.flag("--advise", a.advise, "radii advised for some clearances, and what runs with them measure");
   app.flag("--acceleration", a.loop.acceleration, "tasks at acceleration level");
   app.flag("--noise", a.loop.noise, "with encoder steps, a tick of delay and a model error of 1 %");
   return runBenchmark(app, argc, argv, "control", [&](Measurement& result) {
