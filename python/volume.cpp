@@ -288,7 +288,7 @@ void addVolume(py::module_& module) {
   addAdvice(module);
   module.def(
       "load_points", [](const Path& path) { return toArray(loadPoints(path.string())); }, py::arg("path"),
-      "(n, 3) array: the points of a mesh file or of a qhull file.");
+      "(n, 3) array: the points of a mesh, of a qhull file or of a text with three coordinates a line.");
 }
 
 }  // namespace fcl_stpbv

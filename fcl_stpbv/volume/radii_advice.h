@@ -67,9 +67,9 @@ struct RadiiAdvice {
   double leastClearance;
 };
 
-/// Radii for the body around these points (m), by the method of docs/choosing_r_and_R.md. Builds about thirty
-/// volumes, up to a hundred for long periods. @throws Error for points that have no volume, for numbers out
-/// of range, and for a clearance that no radii can keep.
+/// Radii for the body around these points (m), by the method of docs/choosing_r_and_R.md. Builds about
+/// fifteen volumes, up to a hundred where the clearance is too small for the task. @throws Error for points
+/// that have no volume, for numbers out of range, and for a clearance that no radii can keep.
 RadiiAdvice adviseRadii(const std::vector<Eigen::Vector3d>& points, const RadiiTask& task);
 
 }  // namespace fcl_stpbv
