@@ -17,7 +17,7 @@ namespace fcl_stpbv {
 /// How accurate an answer is.
 enum class DistanceStatus {
   /// The signed distance up to rounding: for bodies apart, touching, or penetrating by at most r1 + r2. For
-  /// half spaces and planes, and for two simple shapes, often deeper too.
+  /// half spaces and planes at any depth; for two simple shapes often deeper, too.
   exact,
   /// Deeper penetration: the translation that separates is only locally the shortest; the true value lies in
   /// [lower, upper].
