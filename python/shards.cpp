@@ -259,7 +259,7 @@ void addProof(py::module_& module) {
           "Boxes not examined yet: lower and upper limits (rad or m).")
       .def_readonly("collision", &PairProof::collision,
                     "A configuration in which the pair collides, or None.")
-      .def_readonly("boxes", &PairProof::boxes, "looked at so far")
+      .def_readonly("boxes", &PairProof::boxes, "looked at by this piece, or by all pieces that were merged")
       .def_property_readonly("proven", &PairProof::proven)
       .def("merge", &merge, py::arg("other"),
            "What two pieces of one pair's proof have found together; associative and commutative.")

@@ -44,7 +44,7 @@ struct JointBox {
 struct PairProof {
   std::vector<JointBox> open;                ///< boxes that are not examined yet
   std::optional<Eigen::VectorXd> collision;  ///< a configuration (all coordinates) in which the pair collides
-  long boxes = 0;                            ///< number of boxes examined so far
+  long boxes = 0;  ///< number of boxes examined by one call of provePair(), or by all that were merged
 
   /// Whether the proof is complete: no box is left, and there is no collision.
   bool proven() const { return open.empty() && !collision; }
