@@ -1,5 +1,5 @@
-// Moves one link through a course of FCL's shapes and a mesh, and prints signed distance, witness points and the
-// obstacle's part.
+// Moves one link through a course of FCL's shapes and a mesh, and prints signed distance, witness points and
+// the obstacle's part.
 #include <fcl/geometry/bvh/BVH_model.h>
 #include <fcl/geometry/geometric_shape_to_BVH_model.h>
 #include <fcl/geometry/shape/box.h>
