@@ -122,9 +122,14 @@ class ColladaArrays {
       if (kind == "vcount") counts += countIndices(*element, name_);
     }
     if (indices == 0) return;
-    if (colladaWhole(primitives, "count", 0, name_) == 0)
-      refuseCollada(primitives, "holds indices, but its count is 0", name_);
-    if (counts == 0 && std::string_view(primitives.Name()) == "polylist")
+    const std::string_view kind = primitives.Name();
+    const std::size_t count = colladaWhole(primitives, "count", 0, name_);
+    if (count == 0) refuseCollada(primitives, "holds indices, but its count is 0", name_);
+    if (kind == "polygons" && runs.size() != count)
+      refuseCollada(
+          primitives,
+          "holds " + std::to_string(runs.size()) + " <p>, but its count is " + std::to_string(count), name_);
+    if (counts == 0 && kind == "polylist")
       refuseCollada(primitives, "holds indices, but no <vcount> says of how many each polygon is made",
                     name_);
     checkRuns(primitives, inputs, runs);

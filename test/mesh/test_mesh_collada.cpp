@@ -223,6 +223,9 @@ TEST_CASE(
            ">" + kSound.substr(end + close.size());
   };
   CHECK_THAT(loadedText(as("lines", "<p>0 0 1 1 2 2</p>")), Contains("which make no whole <lines>"));
+  const std::string run = "<p>0 0 1 1 2 2</p>";
+  CHECK_THAT(loadedText(as("polygons", run + run)), Contains("holds 2 <p>, but its count is 1"));
+  CHECK(loadedText(as("polygons", run)) == "");
   CHECK_THAT(loadedText(as("linestrips", "<p>0 0 1 1 2 2</p><p>0 0</p>")), Contains("no whole <linestrips>"));
   CHECK_THAT(loadedText(as("tristrips", "<p>0 0 1 1</p>")), Contains("no whole <tristrips>"));
   CHECK_THAT(loadedText(as("trifans", "<p>0 0 1 1 2</p>")), Contains("no whole <trifans>"));
