@@ -20,14 +20,6 @@ struct pybind11::detail::type_caster<fcl_stpbv::PythonMotionBracket>
     : fcl_stpbv::MadeCaster<fcl_stpbv::PythonMotionBracket> {};
 
 namespace fcl_stpbv {
-namespace {
-
-/// @throws Error as collides() does.
-void requireMargin(double margin) {
-  if (std::isnan(margin)) throw Error("margin: is not a number");
-}
-
-}  // namespace
 
 MotionCheck& PythonRobot::motions() {
   requireCheckedPairs();

@@ -280,8 +280,13 @@ class PythonRobot {
   void requireCheckedPairs() const {
     if (!checker_) throw Error("no pair of bodies is checked, so that nothing can be said about collisions");
   }
+  /// @throws Error naming the argument.
+  static void requireMargin(double margin) {
+    if (std::isnan(margin)) throw Error("margin: is not a number");
+  }
   CollisionChecker& checker(double margin) {
     requireCheckedPairs();
+    requireMargin(margin);
     checker_->setMargin(margin);
     return *checker_;
   }

@@ -239,7 +239,7 @@ def test_a_batch_is_what_its_rows_are_one_by_one(path):
         robot.collides_many(q[:, :3])
     with pytest.raises(fcl_stpbv.Error, match="threads"):
         robot.collides_many(q, threads=0)
-    with pytest.raises(fcl_stpbv.Error, match="not a number"):
+    with pytest.raises(fcl_stpbv.Error, match="^margin: is not a number"):
         robot.collides(q[0], margin=float("nan"))
 
 
