@@ -50,10 +50,6 @@ AskedPostures load(const ReportRequest& request, RobotLoader& loader, CollisionR
   return postures;
 }
 
-std::string nameOfSecond(const PairEntry& entry, const CollisionReport& report) {
-  return entry.obstacle ? report.obstacles[at(entry.link2)].name : report.robot->links[at(entry.link2)].name;
-}
-
 // `srdf` is null if there is none.
 bool isChecked(const PairEntry& entry, const CollisionReport& report, const SkipReasons* srdf) {
   if (entry.obstacle || !srdf) return entry.obstacle || checkedWithoutSrdf(entry.reason);
@@ -65,8 +61,7 @@ bool isChecked(const PairEntry& entry, const CollisionReport& report, const Skip
 PairReport said(const PairEntry& entry, const CollisionReport& report, const SkipReasons* srdf) {
   PairReport pair;
   pair.links = entry;
-  pair.link1 = report.robot->links[at(entry.link1)].name;
-  pair.link2 = nameOfSecond(entry, report);
+  std::tie(pair.link1, pair.link2) = report.namesOf(entry);
   pair.reason = reasonText(entry.reason);
   if (srdf && !entry.obstacle) pair.srdfReason = srdf->of(pair.link1, pair.link2);
   pair.checked = isChecked(entry, report, srdf);

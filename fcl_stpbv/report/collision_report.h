@@ -69,7 +69,7 @@ struct PairReport {
       std::numeric_limits<double>::quiet_NaN();  ///< time of `configuration` on the trajectory, else NaN
   Eigen::VectorXd closest;                       ///< configuration in which minDistance was found
 
-  /// Proven free all along the trajectory.
+  /// Proven farther apart than the margin all along the trajectory.
   bool freeAlong = false;
   /// Has the trajectory's first contact, or the first place where nothing is decided.
   bool stopsTrajectory = false;
@@ -106,8 +106,9 @@ struct CollisionReport {
   std::string pose;
   /// Its pairs of bodies are those of `trajectoryPairs`.
   std::optional<TrajectoryReport> trajectory;
-  /// Names of the links of each pair, or of link and obstacle.
-  std::vector<std::pair<std::string, std::string>> trajectoryPairs;
+  /// The links of each pair, or link and obstacle. Their names may not tell pairs apart: an obstacle may have
+  /// the name of a link.
+  std::vector<LinkPair> trajectoryPairs;
   double margin = 0;  ///< a distance not above it is a collision (m)
   int checked = 0, colliding = 0;
   /// Number of checked pairs in collision for each cause.
@@ -121,9 +122,15 @@ struct CollisionReport {
 
   /// Whether the pair uses the convex parts of its links.
   bool isByParts(const PairReport& pair) const { return geometry->byParts.count(pair.links) > 0; }
+  /// Names of the two links, or of link and obstacle.
+  std::pair<std::string, std::string> namesOf(const LinkPair& pair) const {
+    const auto second = static_cast<std::size_t>(pair.link2);
+    return {robot->links[static_cast<std::size_t>(pair.link1)].name,
+            pair.obstacle ? obstacles[second].name : robot->links[second].name};
+  }
   /// "link1 - link2" for one of `trajectoryPairs`.
   std::string trajectoryPair(int pair) const {
-    const auto& [first, second] = trajectoryPairs[static_cast<std::size_t>(pair)];
+    const auto [first, second] = namesOf(trajectoryPairs[static_cast<std::size_t>(pair)]);
     return first + " - " + second;
   }
 };

@@ -218,9 +218,8 @@ nlohmann::json dataOf(const CollisionReport& report, const std::string& title,
     item["cover"] = pair.overCover1 + pair.overCover2;
     item["colliding"] = pair.colliding;
     if (std::isfinite(pair.time)) {
-      const std::vector<double>& time = report.trajectory->trajectory.time;
       item["time_text"] = report.trajectory->timeText(pair.time);
-      item["time_share"] = (pair.time - time.front()) / (time.back() - time.front());
+      item["time_share"] = report.trajectory->share(pair.time);
     }
     item["touches_first"] = pair.stopsTrajectory && report.trajectory->verdict == MotionVerdict::contact;
     item["contradicts_srdf"] = pair.contradictsSrdf;

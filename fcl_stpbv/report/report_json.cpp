@@ -27,7 +27,8 @@ nlohmann::json trajectoryJson(const CollisionReport& report) {
     json["steepest_time"] = t.steepestTime;
   }
   if (t.verdict != MotionVerdict::free) {
-    const auto& [first, second] = report.trajectoryPairs[static_cast<std::size_t>(t.stop.pair)];
+    const auto [first, second] =
+        report.namesOf(report.trajectoryPairs[static_cast<std::size_t>(t.stop.pair)]);
     json["contact"] = {{"time", t.stop.until},
                        {"link1", first},
                        {"link2", second},
@@ -36,7 +37,7 @@ nlohmann::json trajectoryJson(const CollisionReport& report) {
   }
   json["undecided"] = nlohmann::json::array();
   for (const TrajectoryStop& pair : t.undecided) {
-    const auto& [first, second] = report.trajectoryPairs[static_cast<std::size_t>(pair.pair)];
+    const auto [first, second] = report.namesOf(report.trajectoryPairs[static_cast<std::size_t>(pair.pair)]);
     json["undecided"].push_back({{"time", pair.from}, {"link1", first}, {"link2", second}});
   }
   return json;

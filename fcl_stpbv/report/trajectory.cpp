@@ -188,6 +188,10 @@ VectorXd TrajectoryReport::at(double time) const {
   return trajectory.points[i] + part * (trajectory.points[i + 1] - trajectory.points[i]);
 }
 
+double TrajectoryReport::share(double time) const {
+  return (time - trajectory.time.front()) / (trajectory.time.back() - trajectory.time.front());
+}
+
 std::string TrajectoryReport::timeText(double time, bool down) const {
   const double way = trajectory.time.back() - trajectory.time.front();
   const int decimals = std::clamp(static_cast<int>(std::ceil(3 - std::log10(way))), 3, 12);

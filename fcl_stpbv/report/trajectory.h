@@ -46,6 +46,8 @@ struct TrajectoryReport {
   std::vector<int> chartPair;
 
   Eigen::VectorXd at(double time) const;
+  /// Where a time is between the first and the last way point: from 0 to 1.
+  double share(double time) const;
   /// A time with its unit, rounded down where all before it was checked. All times of a trajectory have the
   /// same decimals: three, more for one that is shorter than a second.
   std::string timeText(double time, bool down = false) const;

@@ -2,6 +2,7 @@
 #include "fcl_stpbv/report/trajectory_data.h"
 
 #include <algorithm>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "fcl_stpbv/numbers.h"
@@ -15,26 +16,17 @@ using namespace detail;
 
 namespace {
 
-std::size_t pairAt(const CollisionReport& report, int row) {
-  const std::pair<std::string, std::string>& names = report.trajectoryPairs[at(row)];
-  const auto found = std::find_if(report.pairs.begin(), report.pairs.end(), [&](const PairReport& pair) {
-    return pair.checked && pair.link1 == names.first && pair.link2 == names.second;
-  });
-  return static_cast<std::size_t>(found - report.pairs.begin());
-}
-
 // The pair that touches first, as it is then.
 nlohmann::json contactOf(const CollisionReport& report, std::size_t i, std::size_t posture) {
   const TrajectoryReport& t = *report.trajectory;
   PairReport pair = report.pairs[i];
   pair.configuration = t.at(t.stop.until);
   measurePair(report, bodiesOf(*report.geometry, pair.links), pair);
-  const double begin = t.trajectory.time.front(), end = t.trajectory.time.back();
   return {{"label", "First contact"},
           {"pair", i},
           {"posture", posture},
           {"time_text", t.timeText(t.stop.until)},
-          {"time_share", (t.stop.until - begin) / (end - begin)},
+          {"time_share", t.share(t.stop.until)},
           {"distance", pair.answer.distance},
           {"hull_distance", orNull(pair.hullDistance)},
           {"over_cover1", pair.overCover1},
@@ -51,10 +43,13 @@ nlohmann::json trajectoryData(const CollisionReport& report,
                               const std::function<std::size_t(const Eigen::VectorXd&)>& indexOf) {
   if (!report.trajectory) return {};
   const TrajectoryReport& t = *report.trajectory;
-  nlohmann::json chart{{"time", t.chartTime}, {"distance", t.chartDistance}};
+  std::map<LinkPair, std::size_t> number;
+  for (std::size_t i = 0; i < report.pairs.size(); ++i) number[report.pairs[i].links] = i;
+  nlohmann::json chart{{"distance", t.chartDistance}};
   for (std::size_t k = 0; k < t.chartTime.size(); ++k) {
+    chart["share"].push_back(t.share(t.chartTime[k]));
     chart["time_text"].push_back(t.timeText(t.chartTime[k]));
-    chart["pair"].push_back(pairAt(report, t.chartPair[k]));
+    chart["pair"].push_back(number.at(report.trajectoryPairs[at(t.chartPair[k])]));
     chart["posture"].push_back(indexOf(t.at(t.chartTime[k])));
   }
   nlohmann::json data{{"file", t.path},

@@ -184,6 +184,27 @@ class Report(ToolCase):
         self.assertIn(report["trajectory"]["contact"]["time"], chart["time"])
         self.assertRegex(self.follow("way.csv", text).stdout, r"fastest approach of 40[123] samples 1\.\d+ m/s")
 
+    def test_the_chart_tells_a_link_from_an_obstacle_of_its_name(self):
+        # A ball leaves the floor, 1 cm above it; then a link called floor comes to 5 mm from the ball.
+        ball = '<sphere radius="0.1"/>'
+        robot = self.robot(link("root") + link("foot", ball) + link("floor", ball) + joint("up", "root", "foot", "prismatic", axis="0 0 1")
+                           + joint("down", "root", "floor", "prismatic", "0 0 1", "0 0 -1"))
+        floor = self.put("floor.urdf", '<robot name="ground"><link name="floor"><collision><origin xyz="0 0 -0.16"/><geometry><box size="4 4 0.1"/>'
+                                       '</geometry></collision></link></robot>')
+        way = self.put("way.csv", "time,up,down\n0,0,0\n1,0.2,0\n2,0.2,0.595\n")
+        page = page_data(self.run_tool(robot, "--obstacles", floor, "--trajectory", way, "--samples", "20", "--format", "html").stdout)
+        chart = page["trajectory"]["chart"]
+        nearest = [page["pairs"][chart["pair"][k]] for k in (0, -1)]
+        self.assertEqual([(pair["link2"], pair["obstacle"]) for pair in nearest], [("floor", True), ("floor", False)])
+        for k, pair in zip((0, -1), nearest):
+            self.assertAlmostEqual(chart["distance"][k], pair["distance"], delta=1e-6)
+
+    def test_the_samples_of_the_chart_stay_apart_where_times_are_large(self):
+        page = page_data(self.follow("way.csv", "time,slide\n984287,0\n984287.01,0.5\n", "--format", "html").stdout)
+        share = page["trajectory"]["chart"]["share"]
+        self.assertGreater(len(set(share)), 400)
+        self.assertEqual((share[0], share[-1]), (0, 1))
+
     def test_a_contact_less_deep_than_the_precision_counts_as_one(self):
         for deepest, free in (("0.919999", True), ("0.92000000001", False), ("0.920000001", False), ("0.92001", False)):
             done = self.follow("way.csv", f"slide\n0\n{deepest}\n0\n", "--format", "json")

@@ -11,12 +11,11 @@ class Chart {
     this.report = report;
     this.chart = document.querySelector('#trajectory svg');
     if (!this.chart) return;
-    const { time, distance } = report.trajectory.chart;
+    const { distance } = report.trajectory.chart;
     this.showMoments(onMoment, distance.indexOf(Math.min(...distance)));
     this.chart.onmousemove = e => this.tell(this.at(e));
     this.chart.onmouseleave = () => this.tell(-1);
     this.chart.onclick = e => { const k = this.at(e); if (k >= 0) onMoment(...this.moment(k)); };
-    this.span = [time[0], time[time.length - 1]];
   }
 
   timeText(k) {
@@ -30,8 +29,8 @@ class Chart {
 
   // The pair that is nearest then, and the moment.
   moment(k) {
-    const { time, distance, pair, posture } = this.report.trajectory.chart;
-    const seen = { label: 'Shown', posture: posture[k], distance: distance[k], time_text: this.timeText(k), time_share: this.share(time[k]), point1: null };
+    const { share, distance, pair, posture } = this.report.trajectory.chart;
+    const seen = { label: 'Shown', posture: posture[k], distance: distance[k], time_text: this.timeText(k), time_share: share[k], point1: null };
     return [pair[k], seen];
   }
 
@@ -47,11 +46,6 @@ class Chart {
     add('Closest', this.timeText(nearest), chart.distance[nearest], this.pairOf(nearest), () => onMoment(chart.pair[nearest], null));
   }
 
-  share(time) {
-    const all = this.report.trajectory.chart.time;
-    return (time - all[0]) / (all[all.length - 1] - all[0]);
-  }
-
   x(share) {
     const { left, right } = this.chart.dataset;
     return Number(left) + share * (right - left);
@@ -59,10 +53,10 @@ class Chart {
 
   // The sample nearest to the mouse; -1 outside of the axes.
   at(event) {
-    const box = this.chart.getBoundingClientRect(), { left, right } = this.chart.dataset, { time } = this.report.trajectory.chart;
-    const share = ((event.clientX - box.left) / box.width * this.chart.viewBox.baseVal.width - left) / (right - left);
-    if (share < -0.01 || share > 1.01) return -1;
-    return time.reduce((best, t, k) => Math.abs(this.share(t) - share) < Math.abs(this.share(time[best]) - share) ? k : best, 0);
+    const box = this.chart.getBoundingClientRect(), { left, right } = this.chart.dataset, { share } = this.report.trajectory.chart;
+    const seen = ((event.clientX - box.left) / box.width * this.chart.viewBox.baseVal.width - left) / (right - left);
+    if (seen < -0.01 || seen > 1.01) return -1;
+    return share.reduce((best, at, k) => Math.abs(at - seen) < Math.abs(share[best] - seen) ? k : best, 0);
   }
 
   line(id, share) {
@@ -73,13 +67,13 @@ class Chart {
   }
 
   tell(k) {
-    const tip = byId('instant'), { time, distance } = this.report.trajectory.chart;
+    const tip = byId('instant'), { share, distance } = this.report.trajectory.chart;
     tip.hidden = k < 0;
-    this.line('#cursor', k < 0 ? undefined : this.share(time[k]));
+    this.line('#cursor', k < 0 ? undefined : share[k]);
     if (k < 0) return;
     const pair = this.pairOf(k), box = byId('trajectory'), chart = this.chart.getBoundingClientRect();
     tip.textContent = `${this.timeText(k)}: ${mm(distance[k], 3)} mm, ${pair.link1} – ${pair.link2}`;
-    const x = chart.left - box.getBoundingClientRect().left + box.scrollLeft + this.x(this.share(time[k])) * chart.width / this.chart.viewBox.baseVal.width;
+    const x = chart.left - box.getBoundingClientRect().left + box.scrollLeft + this.x(share[k]) * chart.width / this.chart.viewBox.baseVal.width;
     tip.style.left = `${Math.max(4, Math.min(x + 12, box.scrollLeft + box.clientWidth - tip.offsetWidth - 4))}px`;
   }
 
