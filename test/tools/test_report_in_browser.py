@@ -325,6 +325,11 @@ class Page(unittest.TestCase):
         self.assertEqual(self.script("return Math.min(...scene.bodies.map(m => m.geometry.attributes.position.count))"), 24)
         self.assertEqual(self.script("return scene.bodies.length"), 4)
 
+    def test_a_link_may_have_the_name_of_something_of_the_language(self):
+        self.open(self.put("names.urdf", primitives(4).replace("link1", "constructor")), "--primitives", "flat")
+        choices = self.script("return [...document.getElementById('link').options].map(o => o.textContent)")
+        self.assertEqual(choices, ["Any link", UGLY, "constructor", "link2", "link3"])
+
     def test_shapes_left_out_have_a_place_of_their_own_that_is_in_sight(self):
         urdf = self.put("broken.urdf", primitives(4).replace('<box size="0.06 0.1 0.08"/>', '<sphere radius="0"/>'))
         self.open(urdf, "--skip-invalid")
@@ -526,6 +531,7 @@ class Page(unittest.TestCase):
         contact = self.script("return scene.report.trajectory.contact")
         self.assertAlmostEqual(contact["distance"], 0, delta=1e-5)
         self.assertIn("First contact at\n" + contact["time_text"], self.detail())
+        self.assertNotIn("meshes meet", self.detail())  # which they do later only
         posture = lambda: self.script("return scene.pair.posture")
         self.assertEqual(posture(), contact["posture"])
         tags = self.script("return [...document.querySelectorAll('#table td[data-tag]')].map(c => [c.dataset.tag, c.parentElement.rowIndex])")
@@ -533,6 +539,7 @@ class Page(unittest.TestCase):
         self.click(".moments button:last-child")
         self.assertEqual(posture(), self.script("return scene.report.pairs[0].posture"))
         self.assertNotIn("First contact at", self.detail())
+        self.assertIn("meshes meet", self.detail())
         # The chart tells what is under the mouse, and a click puts the robot there.
         self.script("document.getElementById('trajectory').scrollIntoView()")
         chart = self.browser.find_element(By.CSS_SELECTOR, "#trajectory svg")

@@ -59,7 +59,7 @@ function describe(pair, report, moment, onMoment) {
   const fact = (label, value, className = '') => facts.append(make('div', '', '', make('dt', '', label), make('dd', className, value)));
   const [state, look] = stateOf(pair, report), at = report.trajectory && !report.trajectory.timed ? ' at way point' : ' at';
   tags.append(make('span', `tag ${look}`, state));
-  if (pair.cause) tags.append(causeTag(pair.cause));
+  if (!moment && pair.cause) tags.append(causeTag(pair.cause));  // which is known of where the two are closest
   tags.append(make('span', 'tag', report.sampled ? `over all postures: ${reasonWord(pair.reason)}` : pair.reason));
   if (pair.srdf_reason) tags.append(make('span', 'tag', `SRDF: ${pair.srdf_reason}`));
   if (pair.contradicts_srdf) tags.append(make('span', 'tag warn', 'contradicts the SRDF'));

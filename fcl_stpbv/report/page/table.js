@@ -137,17 +137,16 @@ class PairTable {
   }
 
   makeFilters() {
-    const choices = (id, label, values, names = {}) => {
+    const choices = (id, label, values, nameOf = v => v) => {
       const select = byId(id);
-      select.append(new Option(label, ''), ...values.map(v => new Option(names[v] || v, v)));
+      select.append(new Option(label, ''), ...values.map(v => new Option(nameOf(v), v)));
       select.hidden = values.length < 1;
       select.onchange = () => this.fill();
     };
     const values = key => [...new Set(this.pairs.map(p => p[key]).filter(v => v))].sort();
     choices('link', 'Any link', [...new Set(this.pairs.flatMap(p => [p.link1, p.link2]))].sort());
-    choices('state', 'All pairs', Object.keys(STATES).filter(s => this.pairs.some(STATES[s][1])),
-      Object.fromEntries(Object.entries(STATES).map(([key, [name]]) => [key, name])));
-    choices('reason', 'Any reason', values('reason'), { always: reasonWord('always') });
+    choices('state', 'All pairs', Object.keys(STATES).filter(s => this.pairs.some(STATES[s][1])), state => STATES[state][0]);
+    choices('reason', 'Any reason', values('reason'), reasonWord);
     choices('cause', 'Any cause', values('cause'));
     byId('search').oninput = () => this.fill();
     byId('clear').onclick = () => this.filter({});
