@@ -432,6 +432,11 @@ class Page(unittest.TestCase):
         self.assertGreater(pixels, 20)  # of the targets' colour
         self.assertIn("high x: violated by 10.000 mm", self.browser.find_element(By.ID, "violated").text)
         self.assertNotIn("Least in samples", self.detail())
+        # The link between base and hand is adjacent to both, so no pair has it.
+        self.script("[...document.querySelectorAll('#linktable tbody tr')].find(row => row.cells[0].title === 'm').click()")
+        self.assertEqual(self.browser.find_element(By.ID, "count").text, "0 of 1 pair")
+        self.assertIn("No pair passes", self.browser.find_element(By.ID, "nothing").text)
+        self.click("#clear")
         self.click("#show [data-value=pair]")
         self.assertFalse(self.script("return scene.marks.visible"))
         self.window(390)

@@ -51,7 +51,8 @@ class PairTable {
     const pairs = this.pairs = report.pairs;
     STATES.colliding[0] = hitWord(report);
     this.onSelect = onSelect;
-    this.shorten = shortener([...new Set(pairs.flatMap(p => [p.link1, p.link2]))]);
+    this.links = [...new Set([...report.bodies.map(body => body.owner), ...pairs.flatMap(p => [p.link1, p.link2])])];  // also those of no pair
+    this.shorten = shortener(this.links);
     this.selected = -1;
     this.sort = { key: null, sign: 1 };
     const known = { mesh_distance: 1, cause: 1, srdf_reason: 1 };
@@ -144,7 +145,7 @@ class PairTable {
       select.onchange = () => this.fill();
     };
     const values = key => [...new Set(this.pairs.map(p => p[key]).filter(v => v))].sort();
-    choices('link', 'Any link', [...new Set(this.pairs.flatMap(p => [p.link1, p.link2]))].sort());
+    choices('link', 'Any link', [...this.links].sort());
     choices('state', 'All pairs', Object.keys(STATES).filter(s => this.pairs.some(STATES[s][1])), state => STATES[state][0]);
     choices('reason', 'Any reason', values('reason'), reasonWord);
     choices('cause', 'Any cause', values('cause'));
