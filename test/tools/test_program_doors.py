@@ -20,7 +20,7 @@ PROGRAMS = [path for path in BUILT if path not in EXAMPLES and b"Options:" in su
 SOAKS = [path for path in BUILT if path not in EXAMPLES + PROGRAMS]
 # Words that some scripts accept: ctest's options, names of files and folders, and words that a program of the
 # project refuses itself.
-TAKE = {"nonsense": ("check_format", "demo", "fuzz", "make_packages"), "--no-such-option": ("test",)}
+TAKE = {"nonsense": ("demo", "fuzz", "make_packages"), "--no-such-option": ("test",)}
 NO_NUMBERS = ["nan", "-nan", "inf", "-inf", "1e400", "1e-310", "1,5", "1.5x", "x", "", " "]
 
 
