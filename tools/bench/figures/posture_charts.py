@@ -1,4 +1,5 @@
 """Charts of postures: the effort that finding them takes, and the places that have one."""
+import statistics
 import xml.etree.ElementTree as xml
 
 from . import palette
@@ -34,8 +35,11 @@ def posture_profile(height=400):
             text += block(f"$profile{panel}{i}", curve)
             plots.append(f"$profile{panel}{i} using 1:2 with steps lw 2 {'dt (6,4)' if name == dashed else ''} lc rgb '{colour}'")
         text += spans.get(words, spans["work"]) + f"set title '{words}' offset 0,-0.6\nplot " + ", ".join(plots) + "\n" + UNLABEL + "unset ylabel\n"
-    draw("posture_profile", "Postures: all four solve as many in as many steps, STP-BVs in under half of FCL's time", text + "unset multiplot\n",
-         small_print, height)
+    good = [{name: row for name, row in results.items() if row["solved"] and row["clear"]} for results in tasks.values()]
+    found = [sum(name in results for results in good) for name in colours]
+    share = statistics.median(results["STP-BV"]["seconds"] / results["hulls, plain FCL"]["seconds"] for results in good if len(results) == len(colours))
+    draw("posture_profile", f"Postures: each way finds {min(found)} to {max(found)} of {len(tasks)}; STP-BVs take {100 * share:.0f} % of plain FCL's time",
+         text + "unset multiplot\n", small_print, height)
 
 
 def success_map(name, scene, where, across, upward, panel, height, tics, around=()):
