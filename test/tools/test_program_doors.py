@@ -130,6 +130,7 @@ class Programs(unittest.TestCase):
                     continue
                 with self.subTest(script=script.name, word=word):
                     self.refused(run(*([sys.executable, script] if script.suffix == ".py" else [script]), word, cwd=PROJECT))
+        self.refused(run(PROJECT / ".ci/run", "format", "nonsense"), "nonsense")  # before the first stage
 
     def test_a_number_that_is_none_is_refused_by_every_option_that_takes_one(self):
         tried = 0
