@@ -37,8 +37,8 @@ void placeOnTrajectory(const TrajectoryReport& trajectory, std::size_t first, st
                                             [](bool free) { return free; });
   const bool atStop = touches && !(nearest->distance < trajectory.stop.answer.distance);
   pair.time = atStop ? trajectory.stop.until : nearest->time;
-  pair.configuration =
-      atStop ? trajectory.at(pair.time) : trajectory.closestAt[static_cast<std::size_t>(nearest - begin)];
+  pair.configuration = atStop ? trajectory.stop.configuration
+                              : trajectory.closestAt[static_cast<std::size_t>(nearest - begin)];
   pair.colliding = touches;
 }
 

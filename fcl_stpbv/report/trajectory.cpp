@@ -45,7 +45,7 @@ FirstStop firstStop(MotionCheck& check, double margin, const Trajectory& t, std:
     const VectorXd q = t.points[i] + found.until * (t.points[i + 1] - t.points[i]);
     return {found.verdict,
             i,
-            {timeAt(t, i, found.from), timeAt(t, i, found.until), found.pair, check.answer(found.pair, q)},
+            {timeAt(t, i, found.from), timeAt(t, i, found.until), found.pair, check.answer(found.pair, q), q},
             found.tooMany};
   }
   FirstStop none;

@@ -12,9 +12,10 @@ namespace fcl_stpbv::report {
 
 /// The end of the search for a contact. All pairs in the search are proven free before `from`.
 struct TrajectoryStop {
-  double from = 0, until = 0;  ///< in the trajectory's time
-  int pair = -1;               ///< index among the pairs of bodies; -1 if the trajectory is free
-  DistanceAnswer answer;       ///< distance of the pair at `until`
+  double from = 0, until = 0;     ///< in the trajectory's time
+  int pair = -1;                  ///< index among the pairs of bodies; -1 if the trajectory is free
+  DistanceAnswer answer;          ///< distance of the pair at `until`
+  Eigen::VectorXd configuration;  ///< at `until`
 };
 
 struct TrajectoryReport {
@@ -31,7 +32,7 @@ struct TrajectoryReport {
   /// For each pair of bodies, whether it is proven free all the way, whatever the result for the others.
   std::vector<bool> free;
   std::vector<Approach> closest;  ///< for each pair of bodies, with its time on the trajectory
-  /// The configurations of `closest`. In a short segment late in a trajectory, its time may be too coarse.
+  /// The configurations of `closest`. Their times may be too coarse, in a short segment late in a trajectory.
   std::vector<Eigen::VectorXd> closestAt;
   /// Precision (m) to which every `closest` is that of the whole trajectory if `closestProven` is true. It is
   /// false if a pair was too deep in another one.

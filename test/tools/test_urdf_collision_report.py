@@ -226,6 +226,17 @@ class Report(ToolCase):
             self.assertEqual(pair["verdict"], "contact")
             self.assertAlmostEqual(pair["distance"], -0.04, delta=1e-6)
 
+    def test_a_contact_late_and_not_deep_is_reported_where_it_is(self):
+        # A ball grazes another one, less deep than the precision of a closest approach, in the last nanosecond of a million seconds.
+        ball = '<sphere radius="0.05"/>'
+        robot = self.robot(link("root") + link("still", ball) + link("moving", ball) + joint("turn", "root", "still")
+                           + joint("slide", "root", "moving", "prismatic", "1 0.0999999 0", "-1 0 0", (-2, 2)))
+        for end in (1.37, 1.7, 1.95):
+            path = self.put("way.csv", f"time,slide\n0,0\n999999,0\n999999.000000001,{end}\n")
+            report = json.loads(self.run_tool(robot, "--primitives", "flat", "--samples", "20", "--trajectory", path, "--format", "json").stdout)
+            self.assertEqual((report["trajectory"]["verdict"], report["summary"]["causes"]), ("contact", {"meshes meet": 1}))
+            self.assertAlmostEqual(report["pairs"][0]["distance"], -1e-7, delta=1e-7)
+
     def test_the_levels_of_the_chart_stay_in_it_and_apart(self):
         for margin in ("0", "0.001", "-0.001", "0.9", "3", "-3"):
             page = self.follow("way.csv", "slide\n0\n2\n", "--margin", margin, "--format", "html").stdout
