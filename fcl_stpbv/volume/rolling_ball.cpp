@@ -255,12 +255,12 @@ RolledHull quickBallHull(const std::vector<Vector3d>& points, double radius) {
 
 RolledHull hullByDefinition(const std::vector<Vector3d>& points, double radius) {
   std::vector<Ring> faces = facesByDefinition(points, radius);
-  std::vector<int> lone;
-  if (faces.empty()) {
-    const auto [a, b] = farEnds(points);
-    lone = a == b ? std::vector<int>{a} : std::vector<int>{a, b};
-  }
-  return hullOf(points, std::move(faces), std::move(lone), radius);
+  return faces.empty() ? spindleOf(points) : hullOf(points, std::move(faces), {}, radius);
+}
+
+RolledHull spindleOf(const std::vector<Vector3d>& points) {
+  const auto [a, b] = farEnds(points);
+  return {a == b ? std::vector<int>{a} : std::vector<int>{a, b}, {}};
 }
 
 }  // namespace fcl_stpbv::detail

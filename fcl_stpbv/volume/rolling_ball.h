@@ -31,9 +31,13 @@ RolledHull convexHull(const std::vector<Eigen::Vector3d>& points);
 RolledHull flatHull(const std::vector<Eigen::Vector3d>& points);
 
 /// The same hull as rollBall(), but directly from the definition of faces: slow and reliable. For at most
-/// kMostByDefinition points (ball_faces.h) and a finite radius. Without a face it is a sphere or a spindle.
-/// Then it has two points far apart, or one point; the caller has to check this.
+/// kMostByDefinition points (ball_faces.h) and a finite radius. If there is no face, the result is
+/// spindleOf().
 RolledHull hullByDefinition(const std::vector<Eigen::Vector3d>& points, double radius);
+
+/// The hull without faces: two points far apart, which are the ends if the points are in a spindle, or one
+/// point if all are equal. The caller has to check that the points are in it.
+RolledHull spindleOf(const std::vector<Eigen::Vector3d>& points);
 
 /// The hull of rollBall() by quickhull (ball_quickhull.h), which is much faster. It has no faces if quickhull
 /// does not suit the cloud. The caller has to check the result (surface_check.h).

@@ -141,13 +141,17 @@ StpBv::Ptr StpBv::build(const std::vector<Vector3d>& points, const StpBvOptions&
   if (found != Soundness::exact) {
     try {
       offer(rollBall(points, rho));
-    } catch (const Error&) {
-      if (found == Soundness::broken && points.size() > kMostByDefinition) throw;
+    } catch (const Error&) {  // rounding: the next two methods may still succeed
     }
   }
-  // Clusters of points that differ only by a few roundings can make the roll fail, and so can a point on the
+  // Clusters of points that differ only by a few roundings can make the roll fail, and so can points on the
   // surface of a spindle. A wrong volume must not be returned.
-  if (found >= Soundness::off && points.size() <= kMostByDefinition) offer(hullByDefinition(points, rho));
+  if (found >= Soundness::off && points.size() <= kMostByDefinition) {
+    offer(hullByDefinition(points, rho));
+  } else if (found == Soundness::broken) {
+    offer(spindleOf(points));
+    if (found == Soundness::off) found = Soundness::broken;
+  }
   if (found == Soundness::broken)
     throw Error(
         "the points are too close to each other to be told apart: merge those closer together than about " +

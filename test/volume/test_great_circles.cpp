@@ -101,3 +101,21 @@ TEST_CASE("A cap of points on one ball of the ball's own radius has the right vo
       }
     }
 }
+
+TEST_CASE("Many points on an arc of the ball's radius are a spindle") {
+  for (const int count : {150, 300}) {
+    Cloud points;
+    for (int i = 0; i < count; ++i) {
+      const double angle = 0.2 + 1.5 * i / (count - 1);
+      points.push_back({std::cos(angle), std::sin(angle), 0});
+    }
+    const StpBv::Ptr volume = StpBv::build(points, {0, 1}),
+                     ends = StpBv::build({points.front(), points.back()}, {0, 1});
+    CHECK(verify(*volume, points).message == "ok");
+    Random random(3);
+    for (int i = 0; i < 200; ++i) {
+      const Vector3d n = random.direction();
+      CHECK(std::abs(volume->support(n) - ends->support(n)) <= 1e-14);
+    }
+  }
+}
