@@ -158,10 +158,10 @@ double enclosedVolume(const StpBv& volume) {
 
 double signedDistance(const StpBv& volume, const Vector3d& point) {
   if (!point.allFinite()) return -kInfinity;
-  // From such a distance every volume looks like a point at the origin. At still larger distances squares of
+  // From such a distance every volume looks like a ball at the origin. At still larger distances squares of
   // lengths overflow.
   constexpr double kFar = 1e100;  // m; points of volumes are within 1e75
-  if (point.cwiseAbs().maxCoeff() > kFar) return point.stableNorm();
+  if (point.cwiseAbs().maxCoeff() > kFar) return point.stableNorm() - volume.radii().r;
   // The largest value belongs to the patch that owns its normal. Any normal gives a valid lower bound if the
   // support of its true owner is used. So it does no harm if rounding moves a normal across a boundary, as
   // may happen close to a vertex.

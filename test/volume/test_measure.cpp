@@ -467,3 +467,9 @@ TEST_CASE("points that are not finite, or no points, are an error and do not cou
   }
   CHECK_THROWS_WITH(overCover(*volume, {}), Catch::Contains("give at least one"));
 }
+
+TEST_CASE("a point that is far away from the origin may be inside a huge margin") {
+  const auto ball = StpBv::build({{0, 0, 0}}, {1e150, 2e150});
+  for (const double far : {1e99, 1e101, 1e140}) CHECK(signedDistance(*ball, {far, 0, 0}) == Approx(-1e150));
+  CHECK(signedDistance(*ball, {0, 3e150, 0}) == Approx(2e150));
+}
