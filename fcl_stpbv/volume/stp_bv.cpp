@@ -152,10 +152,17 @@ StpBv::Ptr StpBv::build(const std::vector<Vector3d>& points, const StpBvOptions&
     offer(spindleOf(points));
     if (found == Soundness::off) found = Soundness::broken;
   }
-  if (found == Soundness::broken)
+  if (found == Soundness::broken) {
+    const double radius = minimumEnclosingBall(points).radius;
+    constexpr double kRounding = 1e-13;  // share of the radius
+    if (rho <= (1 + kRounding) * radius)
+      throw Error("R = " + number(options.R) +
+                  " m is the limit of the usable R up to rounding: use at least " +
+                  usableR(options.r, radius) + " m");
     throw Error(
         "the points are too close to each other to be told apart: merge those closer together than about " +
         number(1e-9 * volume->enclosingRadius()) + " m and build again");
+  }
   return volume;
 }
 

@@ -149,8 +149,9 @@ class StpBv {
   /// Memory that this volume uses, in bytes.
   std::size_t memory() const;
 
-  /// Limit of the big radius for these points and the margin r (m): build() accepts an R above it. @throws
-  /// Error for points or a margin that build() refuses for every R.
+  /// Limit of the big radius for these points and the margin r (m): build() accepts an R above it, except
+  /// perhaps one that is above it by no more than rounding (1e-13 of it). @throws Error for points or a
+  /// margin that build() refuses for every R.
   static double smallestR(const std::vector<Eigen::Vector3d>& points, double r);
 
   /// Tables for this library's own queries; not for users.

@@ -2,7 +2,9 @@
 #include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <string>
 
 #include "fcl_stpbv/volume/measure.h"
 #include "fcl_stpbv/volume/stp_bv.h"
@@ -462,4 +464,24 @@ TEST_CASE("Two pairs of near-duplicates as far apart as the ball allows build a 
 TEST_CASE("two vertices that coincide are no spindle") {
   CHECK_THROWS_WITH(StpBv::assemble({{1, 2, 3}, {1, 2, 3}}, {}, {0.1, 1}), Catch::Contains("coincide"));
   CHECK(StpBv::assemble({{1, 2, 3}, {1, 2, 3.001}}, {}, {0.1, 1})->edgeCount() == 1);
+}
+
+TEST_CASE("An R just above the smallest one gives a volume, or an error that names an R which works") {
+  int refused = 0;
+  for (std::uint64_t seed = 1; seed <= 400; ++seed) {
+    const Cloud points = randomHull(2 + static_cast<int>(seed % 8), {1, 1, 1}, seed);
+    const double R = std::nextafter((1 + 1e-15) * StpBv::smallestR(points, 0.3), 1e9);
+    try {
+      const StpBv::Ptr volume = StpBv::build(points, {0.3, R});
+      CHECK(volume->vertexCount() > 1);
+    } catch (const Error& error) {
+      const std::string message = error.what(), before = "use at least ";
+      CAPTURE(message);
+      REQUIRE(message.find(before) != std::string::npos);
+      CHECK_NOTHROW(
+          StpBv::build(points, {0.3, std::stod(message.substr(message.find(before) + before.size()))}));
+      ++refused;
+    }
+  }
+  CHECK(refused > 0);
 }
