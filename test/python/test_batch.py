@@ -169,8 +169,9 @@ def test_a_margin_that_is_no_length_is_refused(margin):
 
 def test_a_posture_is_that_of_find_posture_with_flat_primitives():
     task = TOOLS / "reach.json"
-    program = [MESH_TO_STPBV.with_name("find_posture"), ARM, task, "-r", "0.01", "-R", "10", "--primitives", "flat", "--starts", "1", "--no-cache"]
-    found = json.loads(subprocess.run([*program, "-q", "--format", "json"], capture_output=True, check=True).stdout)
+    options = "-r 0.01 -R 10 --primitives flat --starts 1 --no-cache -q --format json".split()
+    program = [str(MESH_TO_STPBV.with_name("find_posture")), str(ARM), str(task), *options]
+    found = json.loads(subprocess.run(program, capture_output=True, check=True).stdout)
     posture = fcl_stpbv.PostureSearch(ARM).solve(task.read_text())
     assert posture["feasible"] and posture["q"] == list(found["q"].values()) and posture["cost"] == found["cost"]
 
