@@ -199,7 +199,7 @@ std::array<int, 2> farEnds(const std::vector<Vector3d>& points) {
 std::vector<int> needleEnds(const std::vector<Vector3d>& points) {
   constexpr double kRounding = 3e-14;  // share of the length
   const auto [a, b] = farEnds(points);
-  const Vector3d start = points[at(a)], axis = points[at(b)] - start;
+  const Vector3d &start = points[at(a)], axis = points[at(b)] - start;
   const double length = axis.norm();
   if (!(length > 0)) return {};
   for (const Vector3d& p : points)
