@@ -73,13 +73,13 @@ void PostureProblem::add(std::shared_ptr<PostureRows> rows) {
   known_ = false;
 }
 
-std::string PostureProblem::name(PostureRows::Kind kind, int row) const {
+Violation PostureProblem::rowOf(PostureRows::Kind kind, int row) const {
   for (const auto& rows : rows_) {
     if (rows->kind() != kind) continue;
-    if (row < rows->size()) return rows->name(row);
+    if (row < rows->size()) return {rows->name(row), 0, rows->unit(row)};
     row -= rows->size();
   }
-  return "";
+  return {"", 0};
 }
 
 std::string PostureProblem::variableName(int i) const {
@@ -145,12 +145,17 @@ long PostureProblem::queries() const {
 std::vector<Violation> PostureProblem::missed(const Eigen::Ref<const Eigen::VectorXd>& x, double tolerance) {
   const PostureValues& at = evaluate(x);
   std::vector<Violation> list;
-  const auto note = [&](const std::string& what, double amount) {
-    if (!(amount <= tolerance)) list.push_back({what, amount});
+  const auto note = [&](double amount, const auto& violated) {
+    if (amount <= tolerance) return;
+    list.push_back(violated());
+    list.back().amount = amount;
   };
-  for (int i = 0; i < equalities_; ++i) note(equalityName(i), std::abs(at.equal[i]));
-  for (int i = 0; i < inequalities_; ++i) note(inequalityName(i), -at.atLeast[i]);
-  for (int i = 0; i < variables(); ++i) note(variableName(i), std::max(lower_[i] - x[i], x[i] - upper_[i]));
+  for (int i = 0; i < equalities_; ++i)
+    note(std::abs(at.equal[i]), [&] { return rowOf(PostureRows::Kind::equal, i); });
+  for (int i = 0; i < inequalities_; ++i)
+    note(-at.atLeast[i], [&] { return rowOf(PostureRows::Kind::atLeast, i); });
+  for (int i = 0; i < variables(); ++i)
+    note(std::max(lower_[i] - x[i], x[i] - upper_[i]), [&] { return Violation{variableName(i), 0, ""}; });
   sortWorstFirst(list);
   return list;
 }

@@ -36,6 +36,8 @@ class PostureRows {
   virtual int size() const = 0;
   /// A row's name, for messages.
   virtual std::string name(int row) const = 0;
+  /// A row's unit, for messages: "m", "rad", or "" for a number.
+  virtual std::string unit(int /*row*/) const { return "m"; }
   /// Writes g and its Jacobian (size() x variables). The caller has set the Jacobian to zero. Lengths in m,
   /// angles in rad. What it throws ends a search and reaches the caller.
   virtual void evaluate(const Point& at, Eigen::Ref<Eigen::VectorXd> values,
@@ -69,6 +71,9 @@ struct PostureValues {
 struct Violation {
   std::string name;  ///< name of the constraint
   double amount;     ///< how far it is from holding (m, rad, or a smooth constraint's own unit)
+  /// Unit of the amount: "m", "rad", or "" for a number and for a coordinate beyond its limit. A smooth
+  /// constraint has "m".
+  std::string unit = "m";
 };
 
 /// Cost and constraints as functions of the robot's coordinates and the constraints' additional variables.
@@ -104,9 +109,9 @@ class PostureProblem {
   /// Upper bounds of the variables.
   const Eigen::VectorXd& upper() const { return upper_; }
   /// Name of an equality constraint.
-  std::string equalityName(int row) const { return name(PostureRows::Kind::equal, row); }
+  std::string equalityName(int row) const { return rowOf(PostureRows::Kind::equal, row).name; }
   /// Name of an inequality constraint.
-  std::string inequalityName(int row) const { return name(PostureRows::Kind::atLeast, row); }
+  std::string inequalityName(int row) const { return rowOf(PostureRows::Kind::atLeast, row).name; }
   /// Name of a variable: the coordinate's name, or "contact weight" for an additional variable.
   std::string variableName(int i) const;
   /// Name of a variable's lower or upper limit. If the limit comes from a joint that mimics it, that joint's
@@ -137,7 +142,8 @@ class PostureProblem {
   std::vector<Violation> missed(const Eigen::Ref<const Eigen::VectorXd>& x, double tolerance);
 
  private:
-  std::string name(PostureRows::Kind kind, int row) const;
+  // A row of all rows of this kind, with the amount 0.
+  Violation rowOf(PostureRows::Kind kind, int row) const;
 
   std::shared_ptr<const Kinematics> kinematics_;
   PostureCost cost_;

@@ -26,15 +26,17 @@ class ContactRoom : public PostureRows {
       : kinematics_(std::move(kinematics)), links_(links), patches_(std::move(patches)), world_(world) {
     for (std::size_t c = 0; c < links.size(); ++c) {
       carriers_.push_back(kinematics_->dependence(links[c]));
-      for (int row = 0; row < patches_[c].rooms(); ++row) contactOf_.push_back(c);
+      for (int room = 0; room < patches_[c].rooms(); ++room) rows_.push_back({c, room});
     }
   }
 
   Kind kind() const override { return Kind::atLeast; }
-  int size() const override { return static_cast<int>(contactOf_.size()); }
+  int size() const override { return static_cast<int>(rows_.size()); }
   std::string name(int row) const override {
-    return "stability margin within " + kinematics_->robot().links[at(links_[contactOf_[at(row)]])].name;
+    return (rows_[at(row)].room == 0 ? "stability margin within " : "steepness of the contact of ") +
+           kinematics_->robot().links[at(links_[rows_[at(row)].contact])].name;
   }
+  std::string unit(int row) const override { return rows_[at(row)].room == 0 ? "m" : ""; }
 
   void evaluate(const Point& point, Eigen::Ref<Eigen::VectorXd> values,
                 Eigen::Ref<RowMatrix> jacobian) override {
@@ -56,7 +58,11 @@ class ContactRoom : public PostureRows {
   std::vector<SupportPatch> patches_;
   Eigen::Matrix3d world_;
   std::vector<std::vector<Kinematics::Dependence>> carriers_;
-  std::vector<std::size_t> contactOf_;  // index of the contact of each row
+  struct Row {
+    std::size_t contact;
+    int room;  // of the contact's patch
+  };
+  std::vector<Row> rows_;
 };
 
 }  // namespace

@@ -77,6 +77,7 @@ class StaticStability : public PostureRows {
   Kind kind() const override { return Kind::equal; }
   int size() const override { return 3; }
   std::string name(int row) const override;
+  std::string unit(int row) const override { return row < 2 ? "m" : ""; }
   void evaluate(const Point& at, Eigen::Ref<Eigen::VectorXd> values, Eigen::Ref<RowMatrix> jacobian) override;
 
  private:
@@ -115,6 +116,7 @@ class PlacementRows : public PostureRows {
   Kind kind() const override { return Kind::equal; }
   int size() const override { return static_cast<int>(rows_.size()); }
   std::string name(int row) const override;
+  std::string unit(int row) const override { return rows_[static_cast<std::size_t>(row)] < 3 ? "m" : "rad"; }
   void evaluate(const Point& at, Eigen::Ref<Eigen::VectorXd> values, Eigen::Ref<RowMatrix> jacobian) override;
 
  private:

@@ -1,7 +1,6 @@
 // A posture as text and as JSON.
 #include "fcl_stpbv/report/posture_formats.h"
 
-#include <algorithm>
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -18,7 +17,8 @@ using detail::formatted;
 
 nlohmann::json list(const std::vector<Violation>& violations) {
   nlohmann::json items = nlohmann::json::array();
-  for (const Violation& v : violations) items.push_back({{"constraint", v.name}, {"amount", v.amount}});
+  for (const Violation& v : violations)
+    items.push_back({{"constraint", v.name}, {"amount", v.amount}, {"unit", v.unit}});
   return items;
 }
 
@@ -44,12 +44,9 @@ std::string bulleted(const std::vector<Violation>& violations) {
 
 }  // namespace
 
-// Placements name the rows of their rotations in this way; all else is a length.
 std::string amountOf(const Violation& violation) {
-  const std::string& name = violation.name;
-  const std::string row = name.substr(name.size() - std::min<std::size_t>(name.size(), 3));
-  const bool turns = row == " rx" || row == " ry" || row == " rz";
-  return turns ? formatted("%.4f rad", violation.amount) : formatted("%.3f mm", 1e3 * violation.amount);
+  if (violation.unit == "m") return formatted("%.3f mm", 1e3 * violation.amount);
+  return formatted("%.4f", violation.amount) + (violation.unit.empty() ? "" : " " + violation.unit);
 }
 
 std::string verdictOf(const PostureReport& report) {

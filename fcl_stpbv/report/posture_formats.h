@@ -28,7 +28,7 @@ struct PostureReport {
 
 /// "feasible (converged)"; where the pairs were no constraints, that and how many of them collide.
 std::string verdictOf(const PostureReport& report);
-/// A violation with its unit: "12.700 mm" or "0.0127 rad".
+/// A violation with its unit: "12.700 mm", "0.0127 rad", or a number.
 std::string amountOf(const Violation& violation);
 std::string toText(const PostureReport& report);
 std::string toJson(const PostureReport& report);

@@ -171,11 +171,16 @@ TEST_CASE("static stability and its room keep the robot that they need") {
   const std::weak_ptr<const Kinematics> watched = kinematics;
   const std::vector<Eigen::Vector3d> sole{{0, 0, 0}, {0.2, 0, 0}, {0.2, 0.1, 0}, {0, 0.1, 0}};
   auto stability = std::make_shared<StaticStability>(kinematics, std::vector<Contact>{{foot, sole}}, 0.01, 0);
+  CHECK(stability->unit(1) == "m");
+  CHECK(stability->unit(2) == "");  // of the weights
   const std::shared_ptr<PostureRows> room = stability->room();
   kinematics.reset();
   CHECK_FALSE(watched.expired());
   stability.reset();
   CHECK(room->name(0) == "stability margin within LLEG_LINK5");
+  CHECK(room->unit(0) == "m");
+  CHECK(room->name(1) == "steepness of the contact of LLEG_LINK5");
+  CHECK(room->unit(1) == "");
 }
 
 TEST_CASE("the centre of mass is that of the links, and of the whole mass") {

@@ -225,7 +225,9 @@ class FindPosture(ToolCase):
         answer = json.loads(run.stdout)
         self.assertIs(answer["feasible"], False)
         self.assertEqual(answer["starts"], 2)
-        self.assertIn("left hand x", [v["constraint"] for v in answer["conflict"]])
+        units = {v["constraint"]: v["unit"] for v in answer["conflict"]}
+        self.assertEqual(units["left hand x"], "m")
+        self.assertEqual({unit for name, unit in units.items() if name.endswith((" rx", " ry", " rz"))} - {"rad"}, set())
         text = self.run_task(task, "--starts", "2").stdout
         self.assertTrue(text.startswith("not feasible"))
         self.assertIn("in conflict; each with its violation at the least-squares compromise:", text)
