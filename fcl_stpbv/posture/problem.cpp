@@ -145,17 +145,14 @@ long PostureProblem::queries() const {
 std::vector<Violation> PostureProblem::missed(const Eigen::Ref<const Eigen::VectorXd>& x, double tolerance) {
   const PostureValues& at = evaluate(x);
   std::vector<Violation> list;
-  const auto note = [&](double amount, const auto& violated) {
-    if (amount <= tolerance) return;
-    list.push_back(violated());
-    list.back().amount = amount;
+  const auto note = [&](Violation of, double amount) {
+    of.amount = amount;
+    if (!(amount <= tolerance)) list.push_back(of);
   };
-  for (int i = 0; i < equalities_; ++i)
-    note(std::abs(at.equal[i]), [&] { return rowOf(PostureRows::Kind::equal, i); });
-  for (int i = 0; i < inequalities_; ++i)
-    note(-at.atLeast[i], [&] { return rowOf(PostureRows::Kind::atLeast, i); });
+  for (int i = 0; i < equalities_; ++i) note(rowOf(PostureRows::Kind::equal, i), std::abs(at.equal[i]));
+  for (int i = 0; i < inequalities_; ++i) note(rowOf(PostureRows::Kind::atLeast, i), -at.atLeast[i]);
   for (int i = 0; i < variables(); ++i)
-    note(std::max(lower_[i] - x[i], x[i] - upper_[i]), [&] { return Violation{variableName(i), 0, ""}; });
+    note({variableName(i), 0, ""}, std::max(lower_[i] - x[i], x[i] - upper_[i]));
   sortWorstFirst(list);
   return list;
 }

@@ -29,6 +29,11 @@ double timeAt(const Trajectory& trajectory, std::size_t segment, double part) {
   return trajectory.time[segment] + part * (trajectory.time[segment + 1] - trajectory.time[segment]);
 }
 
+/// The configuration at a share of the way from way point `i` to the next one.
+VectorXd pointOf(const Trajectory& t, std::size_t i, double part) {
+  return t.points[i] + part * (t.points[i + 1] - t.points[i]);
+}
+
 /// A trajectory's first contact, or the first place where nothing is decided.
 struct FirstStop {
   MotionVerdict verdict = MotionVerdict::free;
@@ -42,7 +47,7 @@ FirstStop firstStop(MotionCheck& check, double margin, const Trajectory& t, std:
     const MotionRequest request{margin, 1e-6};
     const MotionBracket found = check.firstContact(t.points[i], t.points[i + 1], request);
     if (found.verdict == MotionVerdict::free) continue;
-    const VectorXd q = t.points[i] + found.until * (t.points[i + 1] - t.points[i]);
+    const VectorXd q = pointOf(t, i, found.until);
     return {found.verdict,
             i,
             {timeAt(t, i, found.from), timeAt(t, i, found.until), found.pair, check.answer(found.pair, q), q},
@@ -137,7 +142,7 @@ void findClosest(MotionCheck& check, TrajectoryReport& report) {
     const double part = approach.time - segment;
     const auto i = static_cast<std::size_t>(segment);
     approach.time = timeAt(t, i, part);
-    report.closestAt.push_back(t.points[i] + part * (t.points[i + 1] - t.points[i]));
+    report.closestAt.push_back(pointOf(t, i, part));
   }
 }
 
@@ -185,7 +190,7 @@ void sample(CollisionConstraints& rows, TrajectoryReport& report) {
 VectorXd TrajectoryReport::at(double time) const {
   const std::size_t i = segmentAt(trajectory, time);
   const double part = (time - trajectory.time[i]) / (trajectory.time[i + 1] - trajectory.time[i]);
-  return trajectory.points[i] + part * (trajectory.points[i + 1] - trajectory.points[i]);
+  return pointOf(trajectory, i, part);
 }
 
 double TrajectoryReport::share(double time) const {

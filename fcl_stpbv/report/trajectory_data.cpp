@@ -20,7 +20,7 @@ namespace {
 nlohmann::json contactOf(const CollisionReport& report, std::size_t i, std::size_t posture) {
   const TrajectoryReport& t = *report.trajectory;
   PairReport pair = report.pairs[i];
-  pair.configuration = t.at(t.stop.until);
+  pair.configuration = t.stop.configuration;
   measurePair(report, bodiesOf(*report.geometry, pair.links), pair);
   return {{"label", "First contact"},
           {"pair", i},
@@ -61,7 +61,7 @@ nlohmann::json trajectoryData(const CollisionReport& report,
                                   [](const PairReport& pair) { return pair.stopsTrajectory; });
   if (t.verdict == MotionVerdict::contact && first != report.pairs.end())
     data["contact"] = contactOf(report, static_cast<std::size_t>(first - report.pairs.begin()),
-                                indexOf(t.at(t.stop.until)));
+                                indexOf(t.stop.configuration));
   return data;
 }
 

@@ -63,6 +63,19 @@ void checkNothing(const RowAnswer& answer) {
   CHECK((answer.pointVelocity[0].isZero(0) && answer.pointVelocity[1].isZero(0)));
 }
 
+/// A smooth constraint on the second coordinate: its value, and its slope in `slope`.
+ConstraintOptions smoothBy(double (*value)(double q, double& slope)) {
+  ConstraintOptions options;
+  options.smooth = {{"curve",
+                     {1},
+                     [value](const Eigen::Ref<const VectorXd>& q, double* gradient) {
+                       double slope;
+                       return value(q[1], gradient ? *gradient : slope);
+                     },
+                     {}}};
+  return options;
+}
+
 }  // namespace
 
 TEST_CASE(
@@ -126,15 +139,10 @@ TEST_CASE("A Hessian leaves no old answers to the rows that it does not ask") {
 
 TEST_CASE("A smooth constraint without a value is a row without a distance") {
   const Slide slide;
-  ConstraintOptions options;
-  options.smooth = {{"root",
-                     {1},
-                     [](const Eigen::Ref<const VectorXd>& q, double* gradient) {
-                       const double value = std::sqrt(q[1]);
-                       if (gradient) *gradient = 0.5 / value;
-                       return value;
-                     },
-                     {}}};
+  const ConstraintOptions options = smoothBy([](double q, double& slope) {
+    slope = 0.5 / std::sqrt(q);
+    return std::sqrt(q);
+  });
   CollisionConstraints rows(slide.kinematics, slide.geometry(true), slide.pairs, options);
   const VectorXd q = slide.at(-0.5), v = VectorXd::Ones(2);
   RowRates rates = rows.makeRates();
@@ -159,14 +167,10 @@ TEST_CASE("A smooth constraint without a value is a row without a distance") {
 
 TEST_CASE("Where a smooth constraint ends, the missing side is not taken for a change of its gradient") {
   const Slide slide;
-  ConstraintOptions options;
-  options.smooth = {{"line",
-                     {1},
-                     [](const Eigen::Ref<const VectorXd>& q, double* gradient) {
-                       if (gradient) *gradient = 3;
-                       return q[1] < 0 ? std::nan("") : 3 * q[1];
-                     },
-                     {}}};
+  const ConstraintOptions options = smoothBy([](double q, double& slope) {
+    slope = 3;
+    return q < 0 ? std::nan("") : 3 * q;
+  });
   CollisionConstraints rows(slide.kinematics, slide.geometry(true), {}, options);
   const VectorXd v = VectorXd::Ones(2), weight = VectorXd::Ones(1);
   RowRates rates = rows.makeRates();
